@@ -1,0 +1,11 @@
+# CHOLMOD of SuiteSparse with a tuned BLAS behind it: target Cholmod::Cholmod.
+find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
+find_library(CHOLMOD_LIBRARY cholmod)
+find_library(OPENBLAS_LIBRARY openblas)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Cholmod REQUIRED_VARS CHOLMOD_LIBRARY CHOLMOD_INCLUDE_DIR OPENBLAS_LIBRARY)
+if(Cholmod_FOUND AND NOT TARGET Cholmod::Cholmod)
+  add_library(Cholmod::Cholmod INTERFACE IMPORTED)
+  target_include_directories(Cholmod::Cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
+  target_link_libraries(Cholmod::Cholmod INTERFACE ${CHOLMOD_LIBRARY} ${OPENBLAS_LIBRARY})
+endif()

@@ -1,0 +1,10 @@
+# GNU Linear Programming Kit: target Glpk::Glpk.
+find_path(GLPK_INCLUDE_DIR glpk.h)
+find_library(GLPK_LIBRARY glpk)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Glpk REQUIRED_VARS GLPK_LIBRARY GLPK_INCLUDE_DIR)
+if(Glpk_FOUND AND NOT TARGET Glpk::Glpk)
+  add_library(Glpk::Glpk INTERFACE IMPORTED)
+  target_include_directories(Glpk::Glpk SYSTEM INTERFACE ${GLPK_INCLUDE_DIR})
+  target_link_libraries(Glpk::Glpk INTERFACE ${GLPK_LIBRARY})
+endif()

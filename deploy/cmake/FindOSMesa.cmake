@@ -1,0 +1,10 @@
+# Off-screen Mesa: target OSMesa::OSMesa.
+find_path(OSMESA_INCLUDE_DIR GL/osmesa.h)
+find_library(OSMESA_LIBRARY OSMesa)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OSMesa REQUIRED_VARS OSMESA_LIBRARY OSMESA_INCLUDE_DIR)
+if(OSMesa_FOUND AND NOT TARGET OSMesa::OSMesa)
+  add_library(OSMesa::OSMesa INTERFACE IMPORTED)
+  target_include_directories(OSMesa::OSMesa SYSTEM INTERFACE ${OSMESA_INCLUDE_DIR})
+  target_link_libraries(OSMesa::OSMesa INTERFACE ${OSMESA_LIBRARY})
+endif()

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a cloth is made of, as the drape needs it.
+#pragma once
+
+#include <string>
+
+namespace toile {
+
+struct Fabric {
+  std::string name = "cotton";
+  double weft_stiffness = 1000.0;   // N/m, membrane, along the pattern's u (across the grain), > 0
+  double warp_stiffness = 1000.0;   // N/m, along v (the grain), > 0
+  double shear_stiffness = 60.0;    // N/m, > 0
+  double bending_stiffness = 2e-5;  // N m, >= 0
+  double density = 0.15;            // kg/m^2, > 0
+};
+
+}  // namespace toile

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The subcommands of `toile`. Each file <name>_command.cpp adds its own; main.cpp lists them and maps errors to exit codes.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/core/progress.h"
+
+namespace toile::app {
+
+// What every subcommand shares.
+struct Context {
+  bool quiet = false;
+  bool json_log = false;
+  int threads = 0;      // 0: as many as there are cores
+  Progress progress;    // a bar on a terminal, one line per stage otherwise; cancelled by SIGINT and SIGTERM
+};
+
+// Adds the subcommand's options to `app` and sets what it runs as its callback.
+void add_version_command(CLI::App& app, Context& context);
+
+}  // namespace toile::app

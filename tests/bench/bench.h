@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the sub-benchmarks of toile-bench share: CPU clocks, medians of repeats, tables.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace toile::bench {
+
+double cpu_seconds();   // of this process, all threads
+double wall_seconds();  // monotonic
+double peak_memory_mb();
+
+struct Timing {
+  double median = 0, least = 0, most = 0;  // CPU seconds
+};
+Timing time_cpu(int repeats, const std::function<void()>& work);
+
+// Slope of log(time) over log(size): the growth exponent.
+double growth_exponent(const std::vector<double>& sizes, const std::vector<double>& times);
+
+// Columns aligned on stdout; `csv` also writes them comma-separated to that file when it is not empty.
+class Table {
+ public:
+  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  void print(const std::string& csv = {}) const;
+
+ private:
+  std::vector<std::string> columns_;
+  std::vector<std::vector<std::string>> rows_;
+};
+std::string fixed(double value, int digits);
+
+struct Arguments {
+  std::vector<std::string> words;  // after the benchmark's name
+  std::string csv;                 // --csv FILE
+  int repeats = 5;                 // --repeats N
+};
+
+// Each returns a process exit code. Add yours here and to the list in main.cpp.
+
+}  // namespace toile::bench

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// toile-bench NAME [words] [--csv FILE] [--repeats N]: prints tables of run time against error.
+#include <cstdio>
+#include <cstring>
+#include <map>
+
+#include "tests/bench/bench.h"
+
+int main(int argc, char** argv) {
+  using namespace toile::bench;
+  struct Entry {
+    const char* summary;
+    int (*run)(const Arguments&);
+  };
+  const std::map<std::string, Entry> benches = {
+  };
+  Arguments arguments;
+  for (int i = 2; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--csv" && i + 1 < argc) arguments.csv = argv[++i];
+    else if (word == "--repeats" && i + 1 < argc) arguments.repeats = std::max(1, std::atoi(argv[++i]));
+    else arguments.words.push_back(word);
+  }
+  const auto found = argc > 1 ? benches.find(argv[1]) : benches.end();
+  if (found == benches.end()) {
+    std::fprintf(stderr, "usage: toile-bench NAME [words] [--csv FILE] [--repeats N]\n");
+    for (const auto& [name, entry] : benches) std::fprintf(stderr, "  %-12s %s\n", name.c_str(), entry.summary);
+    return 2;
+  }
+  return found->second.run(arguments);
+}
