@@ -14,7 +14,8 @@ function(toile_room name)
 endfunction()
 
 # toile_test(NAME target...)
-# Every *_test.cpp of the calling folder as one GoogleTest program `test_NAME`, each test known to ctest.
+# Every *_test.cpp of the calling folder as one GoogleTest program `test_NAME`, each test known to ctest. Suites
+# named Slow... carry the label `slow`, all others that of their room.
 function(toile_test name)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   if(NOT sources)
@@ -24,5 +25,6 @@ function(toile_test name)
   target_link_libraries(test_${name} PRIVATE ${ARGN} toile_test_support GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE TOILE_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
     TOILE_BINARY_DIR="${CMAKE_BINARY_DIR}")
-  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name})
+  gtest_discover_tests(test_${name} TEST_FILTER "-Slow*" DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name})
+  gtest_discover_tests(test_${name} TEST_FILTER "Slow*" DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900 LABELS slow)
 endfunction()
