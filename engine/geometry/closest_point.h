@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Exact closest points on a triangle surface, by a tree of boxes. Any lengths (metres in Toile); double precision.
+// The tree owns a copy of the surface's corners and is immutable: any number of threads may ask it at once.
+#pragma once
+
+#include <limits>
+
+#include "engine/core/types.h"
+
+namespace toile {
+
+// What the closest point lies on: the inside of the triangle, one of its edges or one of its corners.
+enum class TriangleFeature : std::uint8_t { Face, Edge, Corner };
+
+struct SurfacePoint {
+  int triangle = -1;  // -1: nothing within the given distance
+  double distance_squared = std::numeric_limits<double>::infinity();
+  Vec3 point = Vec3::Zero();
+  Vec3 barycentric = Vec3::Zero();  // of the triangle's corners 0, 1, 2; >= 0, sum 1
+  TriangleFeature feature = TriangleFeature::Face;
+  int feature_index = 0;  // Edge: 0..2 from corner i to corner (i + 1) % 3; Corner: 0..2; Face: 0
+
+  bool found() const { return triangle >= 0; }
+  double distance() const { return std::sqrt(distance_squared); }
+};
+
+// Closest point of triangle abc to p (Ericson, Real-Time Collision Detection, 5.1.5); `triangle` is left at 0.
+// A degenerate triangle is treated as its longest edge.
+SurfacePoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
+class SurfaceTree {
+ public:
+  SurfaceTree() = default;
+  // Requires finite vertices and indices in range. An empty surface is allowed: nothing is ever found.
+  SurfaceTree(const Points3& vertices, const Triangles& triangles);
+
+  // The closest point of the surface. `within`: give up beyond that distance. `start`: a triangle thought to be near
+  // (the answer of a neighbouring query); it only makes the query faster.
+  SurfacePoint closest_point(const Vec3& p, double within = std::numeric_limits<double>::infinity(),
+                             int start = -1) const;
+
+  // How many times a closed surface winds round p, counted along the ray from p towards +z; 0 outside, 1 inside,
+  // 2 where two parts overlap. Rays through edges and corners are counted once. Meaningless if the surface has holes.
+  int winding_number(const Vec3& p) const;
+
+  // Distance, negative where the winding number is positive: right on surfaces that touch or cross themselves.
+  double signed_distance(const Vec3& p) const;
+
+  int triangle_count() const { return static_cast<int>(triangle_of_slot_.size()); }
+
+ private:
+  struct Node {  // four children; boxes are widened so that single precision never hides a triangle
+    std::array<float, 4> low[3], high[3];
+    std::array<std::int32_t, 4> child;  // >= 0 node; -1 none; else ~(first slot * 8 + count)
+  };
+  struct Corners {
+    Vec3 a, b, c;
+  };
+  struct Builder;
+
+  std::vector<Node> nodes_;
+  std::vector<Corners> corners_;  // in the order of the leaves
+  std::vector<std::int32_t> triangle_of_slot_;
+  std::vector<std::int32_t> slot_of_triangle_;
+};
+
+}  // namespace toile
