@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values to bytes and back, exactly: how stage results are stored, resumed from and hashed. A type joins by one function
+// Values to bytes and back, exactly: how stage results are stored, resumed from and hashed. A type joins by one
+// function
 //   template <class A> void archive(A& a, MyType& value) { a(value.first, value.second); }
-// found beside the type; the same function writes and reads. Little-endian, no padding, no pointers. A reader checks every
-// count against the bytes that are left and throws Error{StorageFailed} instead of trusting them.
+// found beside the type; the same function writes and reads. Little-endian, no padding, no pointers. A reader checks
+// every count against the bytes that are left and throws Error{StorageFailed} instead of trusting them.
 #pragma once
 
 #include <cstring>
@@ -90,8 +91,7 @@ class ArchiveWriter {
     for (const auto& entry : values) write(std::pair<K, V>(entry));
   }
   template <class T>
-    requires(!ArchivedAsIs<T> && !EigenMatrix<T>)
-  void write(const T& value) {
+  requires(!ArchivedAsIs<T> && !EigenMatrix<T>) void write(const T& value) {
     archive(*this, const_cast<T&>(value));  // `archive` serves reading too; writing changes nothing
   }
 
@@ -110,7 +110,8 @@ class ArchiveReader {
 
  private:
   [[noreturn]] static void fail() {
-    throw Error(ErrorCode::StorageFailed, "artifact", "the stored stage result is damaged; delete it and run the job again");
+    throw Error(ErrorCode::StorageFailed, "artifact",
+                "the stored stage result is damaged; delete it and run the job again");
   }
   void raw(void* data, std::size_t size) {
     if (size > static_cast<std::size_t>(end_ - next_)) fail();
@@ -193,10 +194,7 @@ class ArchiveReader {
     }
   }
   template <class T>
-    requires(!ArchivedAsIs<T> && !EigenMatrix<T>)
-  void read(T& value) {
-    archive(*this, value);
-  }
+  requires(!ArchivedAsIs<T> && !EigenMatrix<T>) void read(T& value) { archive(*this, value); }
 
   const std::uint8_t* next_;
   const std::uint8_t* end_;
@@ -215,7 +213,8 @@ T from_bytes(const Bytes& bytes) {
   T value;
   ArchiveReader reader(bytes);
   reader(value);
-  if (!reader.at_end()) throw Error(ErrorCode::StorageFailed, "artifact", "the stored stage result has bytes left over");
+  if (!reader.at_end())
+    throw Error(ErrorCode::StorageFailed, "artifact", "the stored stage result has bytes left over");
   return value;
 }
 

@@ -48,7 +48,9 @@ std::string finish_hex(EVP_MD_CTX* context) {
 }
 }  // namespace
 
-std::string ContentHash::hex() { return finish_hex(state_->context); }
+std::string ContentHash::hex() {
+  return finish_hex(state_->context);
+}
 
 std::string sha256_hex(std::span<const std::uint8_t> bytes) {
   const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), &EVP_MD_CTX_free);

@@ -24,8 +24,7 @@ class ContentHash {
   ContentHash& add(std::string_view text);
 
   template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  ContentHash& add(T value) {
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T> ContentHash& add(T value) {
     return add(std::span(reinterpret_cast<const std::uint8_t*>(&value), sizeof value));
   }
 

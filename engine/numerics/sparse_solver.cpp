@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/numerics/sparse_solver.h"
 
-#include <cholmod.h>
-
 #include <cassert>
 #include <cmath>
 #include <cstring>
+
+#include <cholmod.h>
 
 extern "C" void openblas_set_num_threads(int threads);
 
@@ -25,7 +25,7 @@ struct SparseSolver::State {
   cholmod_factor* symbolic = nullptr;
   bool numeric = false;
   int n = 0;
-  Eigen::VectorXi outer, inner;  // the analysed pattern
+  Eigen::VectorXi outer, inner;                                           // the analysed pattern
   mutable cholmod_dense *solution = nullptr, *y = nullptr, *e = nullptr;  // workspace kept between solves
 
   State() {
@@ -56,8 +56,12 @@ SparseSolver::~SparseSolver() = default;
 SparseSolver::SparseSolver(SparseSolver&&) noexcept = default;
 SparseSolver& SparseSolver::operator=(SparseSolver&&) noexcept = default;
 
-bool SparseSolver::factored() const { return state_->numeric; }
-int SparseSolver::size() const { return state_->n; }
+bool SparseSolver::factored() const {
+  return state_->numeric;
+}
+int SparseSolver::size() const {
+  return state_->n;
+}
 
 bool SparseSolver::factor(const SparseMatrix& matrix) {
   assert(matrix.rows() == matrix.cols() && matrix.isCompressed());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The subcommands of `toile`. Each file <name>_command.cpp adds its own; main.cpp lists them and maps errors to exit codes.
+// The subcommands of `toile`. Each file <name>_command.cpp adds its own; main.cpp lists them and maps errors to exit
+// codes.
 #pragma once
 
 #include <functional>
@@ -15,8 +16,8 @@ namespace toile::app {
 struct Context {
   bool quiet = false;
   bool json_log = false;
-  int threads = 0;      // 0: as many as there are cores
-  Progress progress;    // a bar on a terminal, one line per stage otherwise; cancelled by SIGINT and SIGTERM
+  int threads = 0;    // 0: as many as there are cores
+  Progress progress;  // a bar on a terminal, one line per stage otherwise; cancelled by SIGINT and SIGTERM
 };
 
 // Adds the subcommand's options to `app` and sets what it runs as its callback.

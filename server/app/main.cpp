@@ -12,7 +12,9 @@
 namespace {
 
 std::atomic<bool> g_cancelled{false};
-void cancel_on_signal(int) { g_cancelled = true; }
+void cancel_on_signal(int) {
+  g_cancelled = true;
+}
 
 // A bar on a terminal, one line a stage otherwise.
 void show_progress(std::string_view stage, double fraction) {
@@ -24,7 +26,8 @@ void show_progress(std::string_view stage, double fraction) {
   if (isatty(STDERR_FILENO)) {
     if (new_stage && !last_stage.empty()) std::fputc('\n', stderr);
     const std::string filled(static_cast<std::size_t>(percent) * 30 / 100, '#');
-    std::fprintf(stderr, "\r%-20.*s [%-30s] %3d %%", static_cast<int>(stage.size()), stage.data(), filled.c_str(), percent);
+    std::fprintf(stderr, "\r%-20.*s [%-30s] %3d %%", static_cast<int>(stage.size()), stage.data(), filled.c_str(),
+                 percent);
     if (percent >= 100) std::fputc('\n', stderr);
   } else if (new_stage) {
     std::fprintf(stderr, "%.*s\n", static_cast<int>(stage.size()), stage.data());
@@ -34,8 +37,8 @@ void show_progress(std::string_view stage, double fraction) {
 }
 
 void log_progress_json(std::string_view stage, double fraction) {
-  std::fprintf(stderr, "{\"event\":\"progress\",\"stage\":\"%.*s\",\"fraction\":%.3f}\n", static_cast<int>(stage.size()),
-               stage.data(), fraction);
+  std::fprintf(stderr, "{\"event\":\"progress\",\"stage\":\"%.*s\",\"fraction\":%.3f}\n",
+               static_cast<int>(stage.size()), stage.data(), fraction);
 }
 
 int report_error(const toile::Error& error) {
@@ -57,7 +60,9 @@ int main(int argc, char** argv) {
   app::Context context;
   app.add_flag("--quiet", context.quiet, "no progress on stderr");
   app.add_flag("--json-log", context.json_log, "progress as JSON lines on stderr");
-  app.add_option("--threads", context.threads, "threads to use; 0: all cores")->envname("TOILE_THREADS")->check(CLI::Range(0, 1024));
+  app.add_option("--threads", context.threads, "threads to use; 0: all cores")
+      ->envname("TOILE_THREADS")
+      ->check(CLI::Range(0, 1024));
   context.progress.cancelled = &g_cancelled;
   context.progress.report = [&](std::string_view stage, double fraction) {
     if (context.quiet) return;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/bench.h"
 
-#include <sys/resource.h>
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+
+#include <sys/resource.h>
+#include <time.h>
 
 namespace toile::bench {
 
@@ -19,8 +19,12 @@ double seconds_of(clockid_t clock) {
 }
 }  // namespace
 
-double cpu_seconds() { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
-double wall_seconds() { return seconds_of(CLOCK_MONOTONIC); }
+double cpu_seconds() {
+  return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+}
+double wall_seconds() {
+  return seconds_of(CLOCK_MONOTONIC);
+}
 
 double peak_memory_mb() {
   rusage usage{};
@@ -56,7 +60,8 @@ void Table::print(const std::string& csv) const {
     for (const auto& row : rows_) widths[c] = std::max(widths[c], c < row.size() ? row[c].size() : 0);
   }
   const auto line = [&](const std::vector<std::string>& cells) {
-    for (std::size_t c = 0; c < cells.size(); ++c) std::printf(c ? "  %*s" : "%-*s", static_cast<int>(widths[c]), cells[c].c_str());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      std::printf(c ? "  %*s" : "%-*s", static_cast<int>(widths[c]), cells[c].c_str());
     std::printf("\n");
   };
   line(columns_);

@@ -12,14 +12,16 @@ int main(int argc, char** argv) {
     const char* summary;
     int (*run)(const Arguments&);
   };
-  const std::map<std::string, Entry> benches = {
-  };
+  const std::map<std::string, Entry> benches = {};
   Arguments arguments;
   for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word == "--csv" && i + 1 < argc) arguments.csv = argv[++i];
-    else if (word == "--repeats" && i + 1 < argc) arguments.repeats = std::max(1, std::atoi(argv[++i]));
-    else arguments.words.push_back(word);
+    if (word == "--csv" && i + 1 < argc)
+      arguments.csv = argv[++i];
+    else if (word == "--repeats" && i + 1 < argc)
+      arguments.repeats = std::max(1, std::atoi(argv[++i]));
+    else
+      arguments.words.push_back(word);
   }
   const auto found = argc > 1 ? benches.find(argv[1]) : benches.end();
   if (found == benches.end()) {

@@ -54,7 +54,8 @@ TEST(Archive, KeepsBodiesWithTheirSkeletonAndNamedPoints) {
 TEST(Archive, RefusesEveryTruncationAndAnythingLeftOver) {
   Bytes bytes = to_bytes(small_pattern());
   for (std::size_t size = 0; size < bytes.size(); size += 7)
-    EXPECT_THROW(from_bytes<Pattern>(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))), Error) << size;
+    EXPECT_THROW(from_bytes<Pattern>(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size))), Error)
+        << size;
   bytes.push_back(0);
   EXPECT_THROW(from_bytes<Pattern>(bytes), Error);
 }
