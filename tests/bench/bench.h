@@ -40,5 +40,6 @@ struct Arguments {
 };
 
 // Each returns a process exit code. Add yours here and to the list in main.cpp.
+int bench_view(const Arguments& arguments);
 
 }  // namespace toile::bench

@@ -12,7 +12,9 @@ int main(int argc, char** argv) {
     const char* summary;
     int (*run)(const Arguments&);
   };
-  const std::map<std::string, Entry> benches = {};
+  const std::map<std::string, Entry> benches = {
+      {"view", {"look at a body and a drape: BODY.obj [DRAPE.obj] OUT.png [--stretch 0.1]", bench_view}},
+  };
   Arguments arguments;
   for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
