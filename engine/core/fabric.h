@@ -2,7 +2,10 @@
 // What a cloth is made of, as the drape needs it.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace toile {
 
@@ -14,5 +17,10 @@ struct Fabric {
   double bending_stiffness = 2e-5;  // N m, >= 0
   double density = 0.15;            // kg/m^2, > 0
 };
+
+// The fabrics a garment may name: cotton (the defaults above), denim, jersey, linen, silk, wool. Round figures of the
+// order that tensile, shear and bending tests of such cloths give; empty for any other name.
+std::optional<Fabric> fabric_named(std::string_view name);
+std::vector<std::string> fabric_names();
 
 }  // namespace toile

@@ -8,7 +8,7 @@
 
 namespace toile {
 
-enum class CurveKind { Line, QuadraticBezier, CubicBezier, Arc };
+enum class CurveKind { Line, QuadraticBezier, CubicBezier, Arc, Polyline };
 
 // The way from an edge's start to its end. Control points are absolute, in the panel frame.
 struct EdgeCurve {
@@ -17,6 +17,7 @@ struct EdgeCurve {
   double radius = 0.0;                                         // arc; at least half the chord
   bool large_arc = false;                                      // arc longer than a half circle
   bool bulges_right = false;                                   // arc runs counter-clockwise about its centre
+  std::vector<Vec2> points;                                    // polyline: between start and end, neither included
 };
 
 // Edge k of a panel runs from corners[k] to corners[(k + 1) % size].

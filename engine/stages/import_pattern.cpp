@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/stages/import_pattern.h"
+
+#include <cmath>
+#include <map>
+
+#include "engine/geometry/curve.h"
+#include "engine/geometry/self_crossing.h"
+#include "engine/io/garmentcode_json.h"
+
+namespace toile {
+
+namespace {
+
+constexpr double kShortestEdge = 1e-5;      // m; a hundredth of a millimetre: shorter is a drawing mistake
+constexpr double kSmallestPanel = 1e-5;     // m^2; 10 mm^2
+constexpr double kTouchTolerance = 1e-7;    // m; closer than this two parts of an outline count as touching
+constexpr double kFlattenTolerance = 2e-5;  // m; chords against curves in the crossing test
+constexpr int kMostChordsPerEdge = 256;
+
+std::string escaped(const std::string& key) {
+  std::string step;
+  for (const char c : key) step += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+  return step;
+}
+
+std::string panel_pointer(const Panel& panel) {
+  return "/pattern/panels/" + escaped(panel.name);
+}
+std::string edge_pointer(const Panel& panel, int edge) {
+  return panel_pointer(panel) + "/edges/" + std::to_string(edge);
+}
+
+std::string centimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g cm", metres * 100.0);
+  return text;
+}
+
+bool all_finite(const Panel& panel) {
+  for (int e = 0; e < panel.edge_count(); ++e) {
+    const EdgeCurve& curve = panel.edges[static_cast<std::size_t>(e)].curve;
+    if (!panel.edge_start(e).allFinite() || !curve.control[0].allFinite() || !curve.control[1].allFinite() ||
+        !std::isfinite(curve.radius))
+      return false;
+    for (const Vec2& point : curve.points)
+      if (!point.allFinite()) return false;
+  }
+  return panel.rotation.allFinite() && panel.translation.allFinite();
+}
+
+void check_edges(const Panel& panel) {
+  for (int e = 0; e < panel.edge_count(); ++e) {
+    const Curve curve = edge_curve(panel, e);
+    if ((curve.end - curve.start).norm() < kShortestEdge)
+      throw Error(ErrorCode::GarmentInvalid, edge_pointer(panel, e),
+                  "edge " + std::to_string(e) + " of panel \"" + panel.name + "\" starts and ends at the same point (" +
+                      centimetres((curve.end - curve.start).norm()) + " apart); remove it or split the curve");
+  }
+}
+
+void check_simple(const Panel& panel) {
+  std::vector<Vec2> polygon;
+  std::vector<int> edge_of_segment;
+  for (int e = 0; e < panel.edge_count(); ++e) {
+    std::vector<Vec2> points = flatten_curve(edge_curve(panel, e), kFlattenTolerance);
+    if (points.size() > kMostChordsPerEdge &&
+        panel.edges[static_cast<std::size_t>(e)].curve.kind != CurveKind::Polyline)
+      points = sample_curve(edge_curve(panel, e), kMostChordsPerEdge);
+    polygon.insert(polygon.end(), points.begin(), points.end() - 1);
+    edge_of_segment.resize(polygon.size(), e);
+  }
+  const auto crossing = find_self_crossing(polygon, kTouchTolerance);
+  if (!crossing) return;
+  const int first = edge_of_segment[static_cast<std::size_t>(crossing->first)];
+  const int second = edge_of_segment[static_cast<std::size_t>(crossing->second)];
+  const Vec2 place = polygon[static_cast<std::size_t>(crossing->first)];
+  throw Error(ErrorCode::GarmentInvalid, edge_pointer(panel, second),
+              "the outline of panel \"" + panel.name + "\" crosses or touches itself: edge " + std::to_string(first) +
+                  " and edge " + std::to_string(second) + " meet near (" + centimetres(place.x()) + ", " +
+                  centimetres(place.y()) + "); move the corners or curve points apart");
+}
+
+void check_panel(const Panel& panel) {
+  if (panel.edge_count() < 2 || panel.corners.size() != panel.edges.size())
+    throw Error(ErrorCode::GarmentInvalid, panel_pointer(panel),
+                "panel \"" + panel.name + "\" needs at least two edges");
+  if (panel.edge_count() > io::kMaxEdgesPerPanel)
+    throw Error(ErrorCode::LimitExceeded, panel_pointer(panel),
+                "panel \"" + panel.name + "\" has more than 2,000 edges; draw curves as curves");
+  if (!all_finite(panel))
+    throw Error(ErrorCode::GarmentInvalid, panel_pointer(panel),
+                "panel \"" + panel.name + "\" has a coordinate that is not a finite number; correct it");
+  check_edges(panel);
+  check_simple(panel);
+  const double area = std::abs(outline_signed_area(panel));
+  if (!(area >= kSmallestPanel))
+    throw Error(
+        ErrorCode::GarmentInvalid, panel_pointer(panel),
+        "panel \"" + panel.name + "\" is degenerate: it encloses less than 0.1 cm2; remove it or correct its vertices");
+}
+
+void check_seams(const Pattern& pattern) {
+  std::map<std::pair<int, int>, std::size_t> seam_of_edge;
+  for (std::size_t s = 0; s < pattern.seams.size(); ++s) {
+    const Seam& seam = pattern.seams[s];
+    const std::string pointer = "/pattern/stitches/" + std::to_string(s);
+    int side_number = 0;
+    for (const SeamSide& side : {seam.a, seam.b}) {
+      const std::string side_pointer = pointer + "/" + std::to_string(side_number++);
+      if (side.panel.value < 0 || side.panel.value >= static_cast<int>(pattern.panels.size()) || side.edge < 0 ||
+          side.edge >= pattern.panel(side.panel).edge_count())
+        throw Error(ErrorCode::SeamInvalid, side_pointer,
+                    "the stitch names an edge that is not there; correct panel and edge");
+      const auto [place, fresh] = seam_of_edge.emplace(std::pair(side.panel.value, side.edge), s);
+      if (!fresh)
+        throw Error(ErrorCode::SeamInvalid, side_pointer,
+                    "edge " + std::to_string(side.edge) + " of panel \"" + pattern.panel(side.panel).name +
+                        "\" is already sewn by stitch " + std::to_string(place->second) +
+                        "; sew each edge once, split it if two pieces meet there");
+    }
+  }
+}
+
+}  // namespace
+
+void validate_pattern(const Pattern& pattern) {
+  if (pattern.panels.empty())
+    throw Error(ErrorCode::GarmentInvalid, "/pattern/panels", "the pattern has no panel; add at least one");
+  if (pattern.panels.size() > io::kMaxPanels)
+    throw Error(ErrorCode::LimitExceeded, "/pattern/panels", "a pattern may have at most 200 panels");
+  for (const Panel& panel : pattern.panels) check_panel(panel);
+  check_seams(pattern);
+}
+
+Pattern import_pattern(std::span<const std::uint8_t> bytes, Progress* progress) {
+  report(progress, "import_pattern", 0.0);
+  Pattern pattern = io::read_garmentcode(bytes);
+  validate_pattern(pattern);
+  report(progress, "import_pattern", 1.0);
+  return pattern;
+}
+
+}  // namespace toile
