@@ -65,10 +65,11 @@ bool owns_edge(const Vec3& a, const Vec3& b) {
   return -dy > 0 || (dy == 0 && dx > 0);
 }
 
-// +1 if the ray from p to +z leaves through the triangle, -1 if it enters, 0 if it misses.
-int ray_crossing(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double w[3] = {side_of_edge(b, c, p.x(), p.y()), side_of_edge(c, a, p.x(), p.y()),
-                       side_of_edge(a, b, p.x(), p.y())};
+}  // namespace
+
+int line_crossing(const Vec2& xy, const Vec3& a, const Vec3& b, const Vec3& c, double& z) {
+  const double w[3] = {side_of_edge(b, c, xy.x(), xy.y()), side_of_edge(c, a, xy.x(), xy.y()),
+                       side_of_edge(a, b, xy.x(), xy.y())};
   const Vec3* from[3] = {&b, &c, &a};
   const Vec3* to[3] = {&c, &a, &b};
   bool left = true, right = true;
@@ -78,8 +79,17 @@ int ray_crossing(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   }
   const double sum = w[0] + w[1] + w[2];
   if (left == right || sum == 0) return 0;
-  const double z = (w[0] * a.z() + w[1] * b.z() + w[2] * c.z()) / sum;
-  return z > p.z() ? (left ? 1 : -1) : 0;
+  z = (w[0] * a.z() + w[1] * b.z() + w[2] * c.z()) / sum;
+  return left ? 1 : -1;
+}
+
+namespace {
+
+// +1 if the ray from p to +z leaves through the triangle, -1 if it enters, 0 if it misses.
+int ray_crossing(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  double z = 0;
+  const int side = line_crossing(p.head<2>(), a, b, c, z);
+  return z > p.z() ? side : 0;
 }
 
 }  // namespace

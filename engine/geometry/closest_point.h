@@ -28,6 +28,11 @@ struct SurfacePoint {
 // A degenerate triangle is treated as its longest edge.
 SurfacePoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
+// Whether the line through (x, y) along z crosses triangle abc, and at which z: +1 where it leaves a solid on its way
+// up (counter-clockwise seen from +z), -1 where it enters, 0 where it misses. A line through an edge or corner shared
+// by several triangles is counted as if moved a little, consistently: the crossings of a closed surface always add up.
+int line_crossing(const Vec2& xy, const Vec3& a, const Vec3& b, const Vec3& c, double& z);
+
 class SurfaceTree {
  public:
   SurfaceTree() = default;

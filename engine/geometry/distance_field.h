@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Signed distance to a body as the cloth meets it: negative inside, once continuously differentiable. Metres.
+#pragma once
+
+#include <memory>
+
+#include "engine/core/types.h"
+#include "engine/geometry/closest_point.h"
+
+namespace toile {
+
+// What contact needs to know of an obstacle. `evaluate` is not const: a field may compute itself where it is visited;
+// the values do not depend on the order of the visits. One field serves one thread at a time.
+class SignedField {
+ public:
+  virtual ~SignedField() = default;
+
+  // Signed distance and its gradient at p. Where the distance is beyond `reach`, any value in between may be returned
+  // (a lower bound > reach), with an undefined gradient.
+  virtual double evaluate(const Vec3& p, double reach, Vec3& gradient) = 0;
+};
+
+// Exact field of an endless upright cylinder about the y axis.
+class CylinderField : public SignedField {
+ public:
+  explicit CylinderField(double radius) : radius_(radius) {}
+  double evaluate(const Vec3& p, double reach, Vec3& gradient) override;
+
+ private:
+  double radius_;
+};
+
+// Exact field of a solid of revolution about the y axis with radius R(y) = base + height exp(-((y - middle) /
+// width)^2), distances taken along the horizontal radius over the slope: exact to first order at the surface.
+class BellyField : public SignedField {
+ public:
+  BellyField(double base, double height, double middle, double width)
+      : base_(base), height_(height), middle_(middle), width_(width) {}
+  double evaluate(const Vec3& p, double reach, Vec3& gradient) override;
+
+ private:
+  double base_, height_, middle_, width_;
+};
+
+struct SurfaceFieldOptions {
+  double spacing = 0.006;         // of the lattice, m; error about spacing^2 / (8 R) on a surface of radius R
+  double coarse_spacing = 0.048;  // of the lattice that tells where there is nothing near, m
+  double margin = 0.05;           // of the lattice round the surface, m; beyond it everything is far
+};
+
+// Field of a closed surface on a lattice that is filled where it is visited: distance exact at the lattice nodes, sign
+// by the winding number (right where parts touch or cross), between the nodes a quadratic B-spline.
+class SurfaceField : public SignedField {
+ public:
+  // Requires a closed, outward oriented surface. Throws Error{LimitExceeded} if it is too large for the spacing.
+  explicit SurfaceField(const Points3& vertices, const Triangles& triangles, const SurfaceFieldOptions& options = {});
+  ~SurfaceField() override;
+
+  double evaluate(const Vec3& p, double reach, Vec3& gradient) override;
+
+  int lattice_nodes_computed() const;
+  const SurfaceTree& tree() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace toile

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/sim/contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+constexpr double kLeastSlope = 1e-12;  // of a field's gradient: it vanishes on the medial axis
+
+}  // namespace
+
+double contact_profile(double depth, double linear_beyond, double& slope) {
+  slope = std::clamp(depth, 0.0, linear_beyond);
+  return slope * (depth > linear_beyond ? depth - 0.5 * linear_beyond : 0.5 * slope);
+}
+
+double friction_profile(double length, double slip_length, double& slope_over_length) {
+  if (length >= slip_length) {
+    slope_over_length = 1 / length;
+    return length - slip_length / 3;
+  }
+  slope_over_length = (2 - length / slip_length) / slip_length;
+  return length * length / slip_length * (1 - length / (3 * slip_length));
+}
+
+Contact::Contact(const Cloth& cloth, SignedField& field, const ContactOptions& options)
+    : cloth_(cloth),
+      field_(field),
+      options_(options),
+      distance_(Eigen::VectorXd::Zero(cloth.node_count)),
+      looked_up_at_(Points3::Zero(cloth.node_count, 3)),
+      known_(static_cast<std::size_t>(cloth.node_count), false),
+      load_(Eigen::VectorXd::Zero(cloth.node_count)),
+      anchor_(Points3::Zero(cloth.node_count, 3)),
+      normal_(Points3::Zero(cloth.node_count, 3)) {}
+
+bool Contact::near(Eigen::Index i, const Vec3& p, Vec3& normal) {
+  const double t = options_.thickness;
+  const double clear = distance_[i] - t;
+  const Vec3 last = looked_up_at_.row(i);
+  if (known_[static_cast<std::size_t>(i)] && clear > 0 && (p - last).squaredNorm() < clear * clear) return false;
+  distance_[i] = field_.evaluate(p, t, normal);
+  looked_up_at_.row(i) = p.transpose();
+  known_[static_cast<std::size_t>(i)] = true;
+  return distance_[i] < t;
+}
+
+double Contact::energy_gradient(const Points3& nodes, Points3& gradient) {
+  double energy = 0;
+  for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
+    const Vec3 p = nodes.row(i);
+    Vec3 normal;
+    if (near(i, p, normal)) {
+      double slope = 0;
+      const double k = options_.stiffness * cloth_.node_area[i];
+      energy += k * contact_profile(options_.thickness - distance_[i], options_.linear_beyond, slope);
+      gradient.row(i) -= (k * slope * normal).transpose();
+    }
+    if (!frozen_ || load_[i] <= 0) continue;
+    const Vec3 n = normal_.row(i), moved = p - anchor_.row(i).transpose(), slip = moved - n * n.dot(moved);
+    double slope_over_length = 0;
+    energy += load_[i] * friction_profile(slip.norm(), options_.slip_length, slope_over_length);
+    gradient.row(i) += (load_[i] * slope_over_length * slip).transpose();
+  }
+  return energy;
+}
+
+void Contact::freeze_friction(const Points3& nodes) {
+  freeze_friction(nodes, Points3::Zero(nodes.rows(), 3), 0.0);
+}
+
+void Contact::freeze_friction(const Points3& nodes, const Points3& pull, double reach) {
+  frozen_ = options_.friction > 0;
+  anchor_ = nodes;
+  for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
+    const Vec3 p = nodes.row(i);
+    Vec3 normal;
+    load_[i] = 0;
+    const double depth = options_.thickness - field_.evaluate(p, options_.thickness + reach, normal);
+    if (depth <= -reach) continue;
+    double slope = 0;
+    contact_profile(depth, options_.linear_beyond, slope);
+    const double length = std::max(normal.norm(), kLeastSlope);
+    const double pressed = options_.stiffness * cloth_.node_area[i] * slope * length;
+    load_[i] = options_.friction * std::max(pressed, pull.row(i).dot(normal) / length);
+    normal_.row(i) = (normal / length).transpose();
+  }
+}
+
+void Contact::drop_friction() {
+  frozen_ = false;
+}
+
+void Contact::stiffness_diagonal(Eigen::VectorXd& diagonal) const {
+  for (Eigen::Index i = 0; i < distance_.size(); ++i)
+    diagonal[i] = distance_[i] < options_.thickness ? options_.stiffness * cloth_.node_area[i] : 0.0;
+}
+
+}  // namespace toile

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/sim/drape_energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/sim/membrane.h"
+
+namespace toile {
+
+DrapeEnergy::DrapeEnergy(const Cloth& cloth, Contact* contact, double gravity)
+    : cloth_(cloth), contact_(contact), gravity_(gravity) {}
+
+double DrapeEnergy::evaluate(const Points3& nodes, Points3& gradient) {
+  gradient.setZero();
+  double energy = membrane_energy_gradient(cloth_, nodes, gradient);
+  energy += bending(nodes, gradient) + gravity(nodes, gradient) + ties(nodes, gradient);
+  if (contact_) energy += contact_->energy_gradient(nodes, gradient);
+  return energy;
+}
+
+double DrapeEnergy::residual(const Points3& gradient) const {
+  return std::sqrt(gradient.squaredNorm() / static_cast<double>(gradient.rows())) / cloth_.mean_node_weight();
+}
+
+double DrapeEnergy::bending(const Points3& nodes, Points3& gradient) const {
+  double energy = 0;
+  const SparseMatrix& q = cloth_.bending;  // symmetric: a column is a row
+  for (Eigen::Index i = 0; i < q.outerSize(); ++i) {
+    double x = 0, y = 0, z = 0;
+    for (SparseMatrix::InnerIterator it(q, i); it; ++it) {
+      const double* p = nodes.data() + 3 * it.index();
+      x += it.value() * p[0], y += it.value() * p[1], z += it.value() * p[2];
+    }
+    double* g = gradient.data() + 3 * i;
+    const double* p = nodes.data() + 3 * i;
+    g[0] += x, g[1] += y, g[2] += z;
+    energy += 0.5 * (x * p[0] + y * p[1] + z * p[2]);
+  }
+  return energy;
+}
+
+double DrapeEnergy::gravity(const Points3& nodes, Points3& gradient) const {
+  const double weight_per_area = cloth_.fabric.density * gravity_;
+  gradient.col(1) += weight_per_area * cloth_.node_area;
+  return weight_per_area * cloth_.node_area.dot(nodes.col(1));
+}
+
+double DrapeEnergy::ties(const Points3& nodes, Points3& gradient) const {
+  double energy = 0;
+  for (const Hold& hold : holds) {
+    const double sunk = std::min(0.0, nodes(hold.node, 1) - hold.height);
+    energy += 0.5 * hold.stiffness * sunk * sunk;
+    gradient(hold.node, 1) += hold.stiffness * sunk;
+  }
+  for (const Pin& pin : pins) {
+    const Vec3 off = nodes.row(pin.node).transpose() - pin.at;
+    energy += 0.5 * pin.stiffness * off.squaredNorm();
+    gradient.row(pin.node) += (pin.stiffness * off).transpose();
+  }
+  return energy;
+}
+
+}  // namespace toile

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The energy whose least value is the drape: membrane + bending + gravity + contact + friction + holds + pins. J.
+#pragma once
+
+#include "engine/sim/contact.h"
+
+namespace toile {
+
+// Keeps a node from sinking below a height: E = k min(0, y - height)^2 / 2. Skirts and trousers hang from these.
+struct Hold {
+  int node = 0;
+  double height = 0.0;     // m
+  double stiffness = 0.0;  // N/m
+};
+
+// Ties a node to a place: E = k |x - at|^2 / 2.
+struct Pin {
+  int node = 0;
+  Vec3 at = Vec3::Zero();
+  double stiffness = 0.0;  // N/m
+};
+
+class DrapeEnergy {
+ public:
+  // `cloth` and `contact` must outlive the energy; `contact` may be null. gravity: m/s^2 along -y, >= 0.
+  DrapeEnergy(const Cloth& cloth, Contact* contact, double gravity);
+
+  std::vector<Hold> holds;
+  std::vector<Pin> pins;
+
+  // Energy at `nodes` (#N x 3); `gradient` is overwritten, N.
+  double evaluate(const Points3& nodes, Points3& gradient);
+
+  // Root of the mean squared nodal gradient over the mean node weight: dimensionless, 0 at rest.
+  double residual(const Points3& gradient) const;
+
+  const Cloth& cloth() const { return cloth_; }
+  Contact* contact() const { return contact_; }
+
+ private:
+  double bending(const Points3& nodes, Points3& gradient) const;
+  double gravity(const Points3& nodes, Points3& gradient) const;
+  double ties(const Points3& nodes, Points3& gradient) const;
+
+  const Cloth& cloth_;
+  Contact* contact_;
+  double gravity_;
+};
+
+}  // namespace toile

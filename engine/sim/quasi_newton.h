@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Limited-memory BFGS over node positions, started from a prefactored matrix instead of a multiple of the identity,
+// with an Armijo line search and a cap on the largest move of a node. No allocation after construction. Source:
+// [Nocedal1980].
+#pragma once
+
+#include <functional>
+
+#include "engine/core/types.h"
+#include "engine/numerics/sparse_solver.h"
+
+namespace toile {
+
+struct QuasiNewtonOptions {
+  int memory = 8;              // pairs kept, >= 1
+  double largest_move = 0.03;  // of any node in one iteration, m
+  double sufficient = 1e-4;    // Armijo: least share of the predicted decrease, (0, 0.5)
+  int most_halvings = 30;      // of the step in one line search
+};
+
+class QuasiNewton {
+ public:
+  using Energy = std::function<double(const Points3& nodes, Points3& gradient)>;
+
+  QuasiNewton(int node_count, const QuasiNewtonOptions& options);
+
+  // Begins at `nodes`: evaluates there and forgets what was learnt.
+  void start(const Points3& nodes, const Energy& energy);
+  // The energy has changed its shape a little (friction frozen anew): evaluate again and keep what was learnt.
+  void refresh(const Energy& energy);
+
+  // One iteration with `matrix` (factored, #N x #N, one for all coordinates). False: no decrease can be found, the
+  // nodes are as good as the arithmetic allows.
+  bool step(const Energy& energy, const SparseSolver& matrix);
+
+  const Points3& nodes() const { return nodes_; }
+  const Points3& gradient() const { return gradient_; }
+  double energy() const { return energy_; }
+  int evaluations() const { return evaluations_; }
+
+ private:
+  void find_direction(const SparseSolver& matrix);
+  bool search_line(const Energy& energy);
+  void remember();
+
+  QuasiNewtonOptions options_;
+  Points3 nodes_, gradient_, trial_, trial_gradient_, direction_;
+  Eigen::MatrixXd right_, solution_;  // #N x 3, column major, for the solver
+  std::vector<Points3> moves_, changes_;
+  std::vector<double> inverse_curvature_, weight_;
+  int first_ = 0, count_ = 0;  // of the ring of pairs
+  double energy_ = 0;
+  int evaluations_ = 0;
+};
+
+}  // namespace toile

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/sim/relax.h"
+
+#include <cmath>
+
+#include "engine/core/units.h"
+#include "engine/sim/membrane.h"
+
+namespace toile {
+namespace {
+
+// Shares of the contact and hold stiffness in the matrix, and the length over which weight acts as a spring:
+// measured best of a few (design/sewing.md F).
+constexpr double kContactShare = 0.4, kHoldShare = 0.3, kWeightLength = 0.3;
+
+// Nodes of a start this close to the body are taken as touching it, m: the sewing leaves them within 0.2 mm.
+constexpr double kStartReach = 0.001;
+
+class Relaxation {
+ public:
+  Relaxation(DrapeEnergy& energy, const RelaxOptions& options)
+      : energy_(energy),
+        options_(options),
+        base_(membrane_bound(energy.cloth())),
+        contact_diagonal_(Eigen::VectorXd::Zero(energy.cloth().node_count)) {}
+
+  void factor(const Points3& nodes) {
+    const Cloth& cloth = energy_.cloth();
+    SparseMatrix matrix = base_;
+    if (energy_.contact()) energy_.contact()->stiffness_diagonal(contact_diagonal_);
+    const double weight = cloth.fabric.density * kGravity / kWeightLength;
+    for (int i = 0; i < cloth.node_count; ++i)
+      matrix.coeffRef(i, i) += weight * cloth.node_area[i] + kContactShare * contact_diagonal_[i];
+    for (const Hold& hold : energy_.holds)
+      if (nodes(hold.node, 1) < hold.height) matrix.coeffRef(hold.node, hold.node) += kHoldShare * hold.stiffness;
+    for (const Pin& pin : energy_.pins) matrix.coeffRef(pin.node, pin.node) += pin.stiffness;
+    if (!solver_.factor(matrix))
+      throw Error(ErrorCode::DrapeFailed, "garment",
+                  "the cloth's stiffness matrix cannot be factored; check the fabric");
+  }
+
+  RelaxResult run(const Points3& start, Progress* progress) {
+    QuasiNewton minimiser(energy_.cloth().node_count, options_.quasi_newton);
+    const QuasiNewton::Energy evaluate = [this](const Points3& x, Points3& g) { return energy_.evaluate(x, g); };
+    if (energy_.contact()) freeze_at_start(start);
+    minimiser.start(start, evaluate);
+    RelaxResult result;
+    for (; result.iterations < options_.iterations; ++result.iterations) {
+      check_cancelled(progress);
+      result.residual = energy_.residual(minimiser.gradient());
+      if (result.residual < options_.stop_residual) break;
+      if (result.iterations > 0 && result.iterations % options_.round == 0 && energy_.contact()) {
+        energy_.contact()->freeze_friction(minimiser.nodes());
+        minimiser.refresh(evaluate);
+      }
+      if (result.iterations % options_.refactor == 0) factor(minimiser.nodes());
+      if (!minimiser.step(evaluate, solver_)) {
+        result.stalled = true;
+        break;
+      }
+    }
+    result.nodes = minimiser.nodes();
+    result.energy = minimiser.energy();
+    result.residual = energy_.residual(minimiser.gradient());
+    result.evaluations = minimiser.evaluations();
+    return result;
+  }
+
+ private:
+  void freeze_at_start(const Points3& start) {
+    Points3 pull = Points3::Zero(start.rows(), 3);
+    membrane_energy_gradient(energy_.cloth(), start, pull);
+    energy_.contact()->freeze_friction(start, pull, kStartReach);
+  }
+
+  DrapeEnergy& energy_;
+  const RelaxOptions& options_;
+  SparseMatrix base_;
+  Eigen::VectorXd contact_diagonal_;
+  SparseSolver solver_;
+};
+
+}  // namespace
+
+RelaxResult relax(DrapeEnergy& energy, const Points3& start, const RelaxOptions& options, Progress* progress) {
+  return Relaxation(energy, options).run(start, progress);
+}
+
+}  // namespace toile

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/sim/sewing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/sim/membrane.h"
+
+namespace toile {
+namespace {
+
+class SewingSolver {
+ public:
+  SewingSolver(DrapeEnergy& energy, SignedField& field, double thickness, const Points3& start,
+               const SewingOptions& options)
+      : energy_(energy),
+        field_(field),
+        thickness_(thickness),
+        options_(options),
+        x_(start),
+        z_(start),
+        u_(start),
+        gradient_(start),
+        right_(start.rows(), 3),
+        solution_(start.rows(), 3) {
+    u_.setZero();
+    push_all_out();
+  }
+
+  void factor(double sigma) {
+    const Cloth& cloth = energy_.cloth();
+    weight_ = cloth.fabric.weft_stiffness * sigma * cloth.node_area;
+    SparseMatrix matrix = membrane_bound(cloth) + SparseMatrix(cloth.bending.triangularView<Eigen::Lower>());
+    for (Eigen::Index i = 0; i < weight_.size(); ++i) matrix.coeffRef(i, i) += weight_[i];
+    for (const Hold& hold : energy_.holds) matrix.coeffRef(hold.node, hold.node) += hold.stiffness;
+    matrix.makeCompressed();
+    if (!solver_.factor(matrix))
+      throw Error(ErrorCode::DrapeFailed, "garment",
+                  "the cloth's stiffness matrix cannot be factored; check the fabric");
+  }
+
+  // Largest move of a node.
+  double step(double relaxation) {
+    energy_.evaluate(x_, gradient_);
+    right_ = -gradient_ + ((z_ - u_ - x_).array().colwise() * weight_.array()).matrix();
+    solver_.solve_into(right_, solution_);
+    x_ += solution_;
+    for (Eigen::Index i = 0; i < x_.rows(); ++i) {
+      const Vec3 q = relaxation * x_.row(i) + (1 - relaxation) * z_.row(i);
+      const Vec3 pushed = push_out(q + u_.row(i).transpose());
+      u_.row(i) += (q - pushed).transpose();
+      z_.row(i) = pushed.transpose();
+    }
+    return std::sqrt(solution_.rowwise().squaredNorm().maxCoeff());
+  }
+
+  const Points3& nodes() const { return x_; }
+
+ private:
+  Vec3 push_out(Vec3 p) {
+    for (int k = 0; k < options_.push_steps; ++k) {
+      Vec3 normal;
+      const double depth = thickness_ - field_.evaluate(p, thickness_, normal);
+      if (depth <= 0) break;
+      p += std::min(depth, options_.push_cap) * normal / std::max(normal.norm(), 0.1);
+    }
+    return p;
+  }
+  void push_all_out() {
+    for (Eigen::Index i = 0; i < z_.rows(); ++i) z_.row(i) = push_out(z_.row(i)).transpose();
+  }
+
+  DrapeEnergy& energy_;
+  SignedField& field_;
+  double thickness_;
+  const SewingOptions& options_;
+  SparseSolver solver_;
+  Points3 x_, z_, u_, gradient_;
+  Eigen::MatrixXd right_, solution_;
+  Eigen::VectorXd weight_;
+};
+
+}  // namespace
+
+SewingResult sew(DrapeEnergy& energy, SignedField& field, double thickness, const Points3& start,
+                 const SewingOptions& options, Progress* progress) {
+  SewingSolver solver(energy, field, thickness, start, options);
+  SewingResult result;
+  for (std::size_t s = 0; s < options.stages.size(); ++s) {
+    const SewingStage& stage = options.stages[s];
+    solver.factor(stage.sigma);
+    for (int i = 0; i < stage.iterations; ++i) {
+      check_cancelled(progress);
+      result.last_move = solver.step(stage.relaxation);
+      ++result.iterations;
+      if (s + 1 == options.stages.size() && result.last_move < options.stop_move) break;
+    }
+  }
+  result.nodes = solver.nodes();
+  return result;
+}
+
+}  // namespace toile

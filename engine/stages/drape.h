@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Drape a garment on a body: the node positions at which its cloth is in equilibrium.
+//
+// Unknown: the position of every garment node. Energy: membrane + bending + gravity + contact + lagged friction.
+// From flat: arrange the panels so that every limb lies inside its tube, weld, sew without gravity, then relax.
+// From a given start (a transported or stored drape): relax only.
+// Source: design/sewing.md; [Eggler2024, Sec. 7].  SI units.
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/stages/drape_quality.h"
+
+namespace toile {
+
+struct DrapeOptions {
+  double friction = 0.3;     // Coulomb coefficient of cloth on body, 0..2; 0: none
+  double gravity = 9.81;     // m/s^2, 0..100
+  double thickness = 0.003;  // distance of the cloth's nodes from the body, m, 0..0.05, to which the chord sag is added
+  double sag_radius = 0.06;  // m, > 0: h^2 / (8 R) is added to the thickness, R the smallest limb radius
+  double contact_stiffness = 2e6;  // N/m^3, > 0
+  int iterations = 800;            // of the relaxation, at most, 0..100000
+  double stop_residual = 0.3;      // residual at which it stops, in mean node weights, > 0
+  bool keep_drape = false;         // take a given start as the drape, without moving it (drape_from only)
+};
+
+struct DrapeDiagnostics {
+  int sewing_iterations = 0;
+  int iterations = 0;
+  int evaluations = 0;
+  double energy = 0.0;    // J
+  double residual = 0.0;  // see DrapeQuality
+  bool stalled = false;   // no further decrease could be found
+};
+
+struct DrapeResult {
+  Drape drape;
+  DrapeQuality quality;
+  DrapeDiagnostics diagnostics;
+};
+
+// From flat. Requires a mesh of `pattern`. Throws Error{DrapeFailed} if no acceptable drape is found,
+// Error{OptionInvalid}.
+DrapeResult drape(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const DrapeOptions& options,
+                  Progress* progress);
+
+// From a given start, #N x 3 in the body's frame.
+DrapeResult drape_from(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const Drape& start,
+                       const DrapeOptions& options, Progress* progress);
+
+}  // namespace toile

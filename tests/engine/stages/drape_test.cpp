@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/stages/drape.h"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/tubes.h"
+
+namespace toile {
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+
+// A tube skirt 4 % tighter than its tube body.
+struct TightTube {
+  Body body = test::tube_body("tube", 0.14, 1.0);
+  Pattern pattern = test::tube_skirt_pattern(0.96 * kTwoPi * 0.14, 0.5, 0.3, 0.17);
+  PatternMesh mesh = test::structured_mesh(pattern, 24, 26);
+};
+
+TEST(Drape, TubeSkirtFromFlatClosesRoundATubeBody) {
+  const TightTube t;
+  const DrapeResult result = drape(t.pattern, t.mesh, t.body, {}, nullptr);
+  EXPECT_EQ(result.quality.nodes_inside, 0);
+  EXPECT_LT(result.diagnostics.residual, 0.3);
+  EXPECT_EQ(result.quality.crossing_pairs, 0);
+  const Eigen::VectorXd r =
+      (result.drape.nodes.col(0).array().square() + result.drape.nodes.col(2).array().square()).sqrt();
+  EXPECT_GT(r.minCoeff(), 0.139);
+  EXPECT_LT(r.maxCoeff(), 0.147);
+  EXPECT_NEAR(result.drape.nodes.col(1).minCoeff(), 0.3, 0.02);  // friction holds it
+  EXPECT_GT(result.quality.weft.p50, 0.04);
+}
+
+TEST(Drape, GivenStartIsKeptWhenAsked) {
+  const TightTube t;
+  const Drape start = test::wrapped_tube(
+      t.pattern, t.mesh, [](double) { return 0.15; }, 0.3);
+  DrapeOptions options;
+  options.keep_drape = true;
+  const DrapeResult result = drape_from(t.pattern, t.mesh, t.body, start, options, nullptr);
+  EXPECT_EQ((result.drape.nodes - start.nodes).norm(), 0);
+  EXPECT_NEAR(result.quality.weft.p50, 0.15 / (0.96 * 0.14) - 1, 2e-3);
+}
+
+}  // namespace
+}  // namespace toile
