@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/stages/body_slices.h"
+
+#include <algorithm>
+
+#include "engine/geometry/convex_hull.h"
+
+namespace toile {
+namespace {
+
+// Fractions of the height.
+constexpr double kMergeWithin = 0.004;    // pieces whose boxes are nearer are one broken outline
+constexpr double kMiddle = 0.004;         // a piece that reaches this near to x = 0 spans the mid-plane
+constexpr double kThicknessBand = 0.008;  // half width about the mid-plane
+constexpr double kLegReach = 0.20;        // a leg's middle is at most this far to the side; hands are further
+constexpr double kLimbGirth = 0.08;       // thinner pieces are fingers, specks or folds
+
+bool spans_middle(const SliceComponent& c, double within) {
+  return c.low.x() <= within && c.high.x() >= -within;
+}
+
+}  // namespace
+
+BodySlices::BodySlices(const TriangleMesh& body) : slicer_(body), height_(std::max(slicer_.top(), 1e-6)) {}
+
+std::vector<SliceComponent> BodySlices::pieces(double y) const {
+  return slicer_.slice(y, kMergeWithin * height_);
+}
+
+std::optional<SliceComponent> BodySlices::middle(double y) const {
+  std::optional<SliceComponent> trunk;
+  for (SliceComponent& c : pieces(y)) {
+    if (!spans_middle(c, kMiddle * height_)) continue;
+    if (trunk)
+      trunk->add(c);
+    else
+      trunk = std::move(c);
+  }
+  return trunk;
+}
+
+double BodySlices::middle_girth(double y) const {
+  const auto c = middle(y);
+  return c ? c->hull_girth() : 0.0;
+}
+
+std::vector<Vec2> BodySlices::leg(double y, Side side) const {
+  std::vector<Vec2> points;
+  for (const SliceComponent& c : slicer_.slice(y)) {
+    if (std::abs(c.centre().x()) > kLegReach * height_) continue;
+    const auto half = side == Left ? c.points(0.0, 1e300) : c.points(-1e300, 0.0);
+    points.insert(points.end(), half.begin(), half.end());
+  }
+  return points;
+}
+
+double BodySlices::middle_thickness(double y) const {
+  double front = -1e300, back = 1e300;
+  for (const SliceComponent& c : slicer_.slice(y)) {
+    if (!spans_middle(c, kThicknessBand * height_)) continue;
+    for (const Vec2& p : c.points(-kThicknessBand * height_, kThicknessBand * height_))
+      front = std::max(front, p.y()), back = std::min(back, p.y());
+  }
+  return front > back ? front - back : 0.0;
+}
+
+bool BodySlices::arm_apart(double y, Side side) const {
+  const auto trunk = middle(y);
+  if (!trunk) return false;
+  const auto all = pieces(y);
+  return std::any_of(all.begin(), all.end(), [&](const SliceComponent& c) {
+    const bool outside = side == Left ? c.low.x() > trunk->high.x() : c.high.x() < trunk->low.x();
+    return outside && c.hull_girth() > kLimbGirth * height_;
+  });
+}
+
+}  // namespace toile

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Horizontal slices of a standing body, and which of their pieces are trunk, legs and arms.
+#pragma once
+
+#include "engine/geometry/mesh_slicer.h"
+
+namespace toile {
+
+class BodySlices {
+ public:
+  explicit BodySlices(const TriangleMesh& body);
+
+  double floor() const { return 0.0; }
+  double height() const { return height_; }  // m, top of the body over the floor
+
+  // Pieces of the slice; an outline broken by holes is one piece.
+  std::vector<SliceComponent> pieces(double y) const;
+  // The pieces that span the mid-plane, as one: trunk, neck or head (holes under the armpits part front and back).
+  std::optional<SliceComponent> middle(double y) const;
+  // Hull girth of the middle piece, 0 where there is none.
+  double middle_girth(double y) const;
+  // Points of the legs at one side of the mid-plane (touching legs are parted at x = 0). Below the crotch only.
+  std::vector<Vec2> leg(double y, Side side) const;
+  // Front-to-back thickness of all pieces at the mid-plane, 0 where they leave it open.
+  double middle_thickness(double y) const;
+  // Whether an arm is a piece of its own at this side.
+  bool arm_apart(double y, Side side) const;
+
+ private:
+  MeshSlicer slicer_;
+  double height_;
+};
+
+}  // namespace toile

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/stages/body_symmetry.h"
+
+#include <algorithm>
+
+#include "engine/geometry/closest_point.h"
+#include "engine/geometry/components.h"
+
+namespace toile {
+namespace {
+
+constexpr int kSamples = 2000;         // about
+constexpr int kSteps = 30;             // point to plane settles in 10 to 30
+constexpr double kNormalCosine = 0.5;  // a match must face the same way
+constexpr double kSoftness = 2.0;  // matches this many medians away count a quarter; a sharp bound makes the end chancy
+constexpr double kLowest = 0.5;    // of the height: feet and legs are placed at will, trunk and arms have the lever
+constexpr double kSettled = 1e-5;  // rad and m: under what a normalised body is compared by
+
+Mat3 turn_about_y(double angle) {
+  return Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();
+}
+
+struct Sample {
+  Vec3 point, normal;
+  int triangle;
+};
+
+Vec3 centre(const TriangleMesh& body, int f) {
+  const auto t = body.triangles.row(f);
+  return (body.vertices.row(t[0]) + body.vertices.row(t[1]) + body.vertices.row(t[2])).transpose() / 3.0;
+}
+
+struct Footprint {
+  Vec3 centre;       // of the area, at height 0
+  double yaw = 0.0;  // turn that brings the longer principal axis onto x
+};
+
+// The surface seen from above.
+Footprint footprint(const TriangleMesh& body) {
+  double area = 0.0, sx = 0.0, sz = 0.0, sxx = 0.0, sxz = 0.0, szz = 0.0;
+  for (int f = 0; f < body.triangle_count(); ++f) {
+    const double a = triangle_cross(body, f).norm();
+    const Vec3 c = centre(body, f);
+    area += a, sx += a * c.x(), sz += a * c.z();
+    sxx += a * c.x() * c.x(), sxz += a * c.x() * c.z(), szz += a * c.z() * c.z();
+  }
+  const double xx = sxx - sx * sx / area, xz = sxz - sx * sz / area, zz = szz - sz * sz / area;
+  return {Vec3(sx / area, 0.0, sz / area), 0.5 * std::atan2(2.0 * xz, xx - zz)};
+}
+
+// Triangle centres evenly over the list of triangles, mirrored at x = 0 of the turned frame.
+std::vector<Sample> mirrored_samples(const TriangleMesh& body, double yaw) {
+  const Mat3 turn = turn_about_y(yaw);
+  const Mat3 mirror = turn.transpose() * Vec3(-1, 1, 1).asDiagonal() * turn;
+  const double bottom = body.vertices.col(1).minCoeff();
+  const double lowest = bottom + kLowest * (body.vertices.col(1).maxCoeff() - bottom);
+  std::vector<Sample> samples;
+  const int step = std::max(1, body.triangle_count() / (2 * kSamples));
+  for (int f = 0; f < body.triangle_count(); f += step) {
+    const Vec3 c = centre(body, f);
+    if (c.y() > lowest) samples.push_back({mirror * c, mirror * triangle_cross(body, f).normalized(), -1});
+  }
+  return samples;
+}
+
+struct Match {
+  Vec3 at, normal;  // moved sample and the surface normal at its closest point
+  double gap;       // along the normal
+  double distance;
+};
+
+class MirrorFit {
+ public:
+  explicit MirrorFit(const TriangleMesh& body) : body_(body), tree_(body.vertices, body.triangles) {}
+
+  // Turn and shift of the mirrored samples onto the body.
+  void run(std::vector<Sample>& samples) {
+    for (int step = 0; step < kSteps; ++step) {
+      const std::vector<Match> matches = find_matches(samples);
+      if (matches.size() < 10) return;
+      const Vec3 move = solve(matches);
+      const Mat3 turn = turn_about_y(move[0]);
+      turn_ = turn * turn_;
+      shift_ = turn * shift_ + Vec3(move[1], 0.0, move[2]);
+      if (move.cwiseAbs().maxCoeff() < kSettled) return;
+    }
+  }
+
+  double angle() const { return std::atan2(turn_(0, 2), turn_(0, 0)); }
+  const Vec3& shift() const { return shift_; }
+  double residual() const { return median_; }
+
+ private:
+  std::vector<Match> find_matches(std::vector<Sample>& samples) {
+    std::vector<Match> matches;
+    for (Sample& s : samples) {
+      const Vec3 p = turn_ * s.point + shift_;
+      const SurfacePoint c = tree_.closest_point(p, std::numeric_limits<double>::infinity(), s.triangle);
+      s.triangle = c.triangle;
+      const Vec3 n = triangle_cross(body_, c.triangle).normalized();
+      if (n.dot(turn_ * s.normal) > kNormalCosine) matches.push_back({p, n, n.dot(c.point - p), c.distance()});
+    }
+    if (matches.empty()) return matches;
+    std::vector<double> distances;
+    for (const Match& m : matches) distances.push_back(m.distance);
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::nth_element(distances.begin(), middle, distances.end());
+    median_ = *middle;
+    return matches;
+  }
+
+  // Least squares for (angle, x, z): n . (angle (z, 0, -x) + shift) = gap.
+  Vec3 solve(const std::vector<Match>& matches) const {
+    const double soft = kSoftness * median_ + kSettled;
+    Mat3 normal = Mat3::Identity() * 1e-9;
+    Vec3 right = Vec3::Zero();
+    for (const Match& m : matches) {
+      const Vec3 row(m.normal.x() * m.at.z() - m.normal.z() * m.at.x(), m.normal.x(), m.normal.z());
+      const double near = 1.0 / (1.0 + m.gap * m.gap / (soft * soft));
+      normal += near * near * row * row.transpose();
+      right += near * near * row * m.gap;
+    }
+    return normal.ldlt().solve(right);
+  }
+
+  const TriangleMesh& body_;
+  SurfaceTree tree_;
+  Mat3 turn_ = Mat3::Identity();
+  Vec3 shift_ = Vec3::Zero();
+  double median_ = 0.0;
+};
+
+}  // namespace
+
+BodySymmetry find_symmetry(const TriangleMesh& body) {
+  const Footprint seen = footprint(body);
+  const TriangleMesh centred{body.vertices.rowwise() - seen.centre.transpose(), body.triangles};
+  std::vector<Sample> samples = mirrored_samples(centred, seen.yaw);
+  MirrorFit fit(centred);
+  fit.run(samples);
+  // In the frame turned by yaw - angle / 2 the mirrored body meets the body by a shift alone; half of it is the plane.
+  BodySymmetry found;
+  found.yaw = seen.yaw - 0.5 * fit.angle();
+  found.offset = (turn_about_y(found.yaw) * (seen.centre + 0.5 * fit.shift())).x();
+  found.residual = fit.residual();
+  return found;
+}
+
+}  // namespace toile
