@@ -18,13 +18,20 @@ class Record {
   using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, Record, std::vector<Record>,
                              std::vector<double>, std::vector<std::string>>;
 
+  Record();
+  ~Record();
+  Record(const Record&);
+  Record(Record&&) noexcept;
+  Record& operator=(const Record&);
+  Record& operator=(Record&&) noexcept;
+
   // Adds a field; names are unique within one record and end in their unit where they have one ("width_mm").
   Record& add(std::string name, Value value);
-  Record& add(std::string name, bool value) { return add(std::move(name), Value(value)); }
-  Record& add(std::string name, int value) { return add(std::move(name), Value(std::int64_t{value})); }
-  Record& add(std::string name, std::int64_t value) { return add(std::move(name), Value(value)); }
-  Record& add(std::string name, double value) { return add(std::move(name), Value(value)); }
-  Record& add(std::string name, const char* value) { return add(std::move(name), Value(std::string(value))); }
+  Record& add(std::string name, bool value);
+  Record& add(std::string name, int value);
+  Record& add(std::string name, std::int64_t value);
+  Record& add(std::string name, double value);
+  Record& add(std::string name, const char* value);
 
   const std::vector<RecordField>& fields() const { return fields_; }
   // The value of this name, or null.
@@ -43,9 +50,33 @@ struct RecordField {
   Record::Value value;
 };
 
+// Defined where the fields are complete: they hold records themselves.
+inline Record::Record() = default;
+inline Record::~Record() = default;
+inline Record::Record(const Record&) = default;
+inline Record::Record(Record&&) noexcept = default;
+inline Record& Record::operator=(const Record&) = default;
+inline Record& Record::operator=(Record&&) noexcept = default;
+
 inline Record& Record::add(std::string name, Value value) {
   fields_.push_back({std::move(name), std::move(value)});
   return *this;
+}
+
+inline Record& Record::add(std::string name, bool value) {
+  return add(std::move(name), Value(value));
+}
+inline Record& Record::add(std::string name, int value) {
+  return add(std::move(name), Value(std::int64_t{value}));
+}
+inline Record& Record::add(std::string name, std::int64_t value) {
+  return add(std::move(name), Value(value));
+}
+inline Record& Record::add(std::string name, double value) {
+  return add(std::move(name), Value(value));
+}
+inline Record& Record::add(std::string name, const char* value) {
+  return add(std::move(name), Value(std::string(value)));
 }
 
 inline const Record::Value* Record::find(const std::string& name) const {
