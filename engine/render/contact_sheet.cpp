@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "engine/render/canvas.h"
 #include "engine/render/palette.h"
+#include "engine/render/stretch_legend.h"
 #include "engine/render/stroke_font.h"
 
 namespace toile {
@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kGap = 12;           // pixels between views and round the sheet
 constexpr double kCaption = 11.0;  // capital height of captions, pixels
-constexpr int kLegendWidth = 96;
 
 struct Layout {
   std::vector<Camera> cameras;
@@ -40,37 +39,11 @@ Layout lay_out(const SheetOptions& options) {
     x += layout.cameras.back().width + kGap;
     tallest = std::max(tallest, layout.cameras.back().height);
   }
-  if (options.stretch_scale) x += kLegendWidth + kGap, tallest = std::max(tallest, 160);
+  if (options.stretch_scale) x += kStretchLegendWidth + kGap, tallest = std::max(tallest, 160);
   layout.views_bottom = layout.top + tallest;
   layout.width = std::max({x, 120, 2 * kGap + static_cast<int>(text_width(options.title, 1.25 * kCaption)) + 1});
   layout.height = layout.views_bottom + 2 * kGap + static_cast<int>(kCaption);
   return layout;
-}
-
-std::string percent(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%s%.3g %%", value > 0 ? "+" : "", 100 * value);
-  return text;
-}
-
-void draw_legend(Canvas& canvas, const Layout& layout, double scale) {
-  const double left = layout.width - kGap - kLegendWidth, bar_width = 22;
-  const double height = std::min(300.0, 0.8 * (layout.views_bottom - layout.top - 3 * kCaption));
-  const double top = layout.top + 3 * kCaption;
-  canvas.text({left, layout.top + 1.4 * kCaption}, kCaption, "stretch", kInk);
-  const int bands = 128;
-  for (int i = 0; i < bands; ++i) {
-    const double y0 = top + height * i / bands, y1 = top + height * (i + 1) / bands;
-    const Rgb colour = stretch_colour(scale * (1.0 - 2.0 * (i + 0.5) / bands), scale);
-    canvas.fill({{left, y0}, {left + bar_width, y0}, {left + bar_width, y1}, {left, y1}}, colour);
-  }
-  canvas.line({{left, top}, {left + bar_width, top}, {left + bar_width, top + height}, {left, top + height}}, 1.0, kInk,
-              true);
-  for (int i = 0; i <= 4; ++i) {
-    const double y = top + height * i / 4;
-    canvas.line({{left + bar_width, y}, {left + bar_width + 5, y}}, 1.0, kInk);
-    canvas.text({left + bar_width + 9, y + 0.45 * kCaption}, 0.9 * kCaption, percent(scale * (1.0 - 0.5 * i)), kInk);
-  }
 }
 
 void draw_mark(Canvas& canvas, const Layout& layout, const Mark& mark) {
@@ -105,7 +78,10 @@ Image contact_sheet(const std::vector<Surface>& surfaces, const SheetOptions& op
                 view_name(options.views[i]), kFaintInk, Anchor::Middle);
   }
   if (!options.title.empty()) canvas.text({kGap, kGap + 1.25 * kCaption}, 1.25 * kCaption, options.title, kInk);
-  if (options.stretch_scale) draw_legend(canvas, layout, *options.stretch_scale);
+  if (options.stretch_scale) {
+    const Vec2 corner(layout.width - kGap - kStretchLegendWidth, layout.top);
+    draw_stretch_legend(canvas, corner, std::min(360, layout.views_bottom - layout.top), *options.stretch_scale);
+  }
   if (!layout.cameras.empty())
     for (const Mark& mark : options.marks) draw_mark(canvas, layout, mark);
   return canvas.finish();

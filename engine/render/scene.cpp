@@ -19,14 +19,10 @@ struct Axes {
 
 Axes axes_of(View view) {
   switch (view) {
-    case View::Back:
-      return {-Vec3::UnitX(), -Vec3::UnitZ()};
-    case View::Left:
-      return {-Vec3::UnitZ(), Vec3::UnitX()};
-    case View::Right:
-      return {Vec3::UnitZ(), -Vec3::UnitX()};
-    case View::Front:
-      break;
+    case View::Back: return {-Vec3::UnitX(), -Vec3::UnitZ()};
+    case View::Left: return {-Vec3::UnitZ(), Vec3::UnitX()};
+    case View::Right: return {Vec3::UnitZ(), -Vec3::UnitX()};
+    case View::Front: break;
   }
   return {Vec3::UnitX(), Vec3::UnitZ()};
 }

@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
     int (*run)(const Arguments&);
   };
   const std::map<std::string, Entry> benches = {
+      {"panels", {"draw a flat pattern: GARMENT.json OUT.png|OUT.svg", bench_panels}},
       {"view", {"look at a body and a drape: BODY.obj [DRAPE.obj] OUT.png [--stretch 0.1]", bench_view}},
   };
   Arguments arguments;

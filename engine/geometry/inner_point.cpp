@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/geometry/inner_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+
+bool inside_polygon(const std::vector<Vec2>& polygon, const Vec2& point) {
+  bool inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if ((a.y() <= point.y()) == (b.y() <= point.y())) continue;
+    if (point.x() < a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+  }
+  return inside;
+}
+
+double distance_to_polygon(const std::vector<Vec2>& polygon, const Vec2& point) {
+  double least = 1e300;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double squared = (b - a).squaredNorm();
+    const double t = squared > 0 ? std::clamp((point - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
+    least = std::min(least, (a + t * (b - a) - point).norm());
+  }
+  return least;
+}
+
+InnerPoint roomiest_point(const std::vector<Vec2>& polygon) {
+  InnerPoint best;
+  if (polygon.empty()) return best;
+  best.at = polygon[0];
+  Vec2 low = polygon[0], high = polygon[0];
+  for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  // A coarse grid over the box, then finer ones round the best point so far.
+  constexpr int kCells = 16;
+  for (int round = 0; round < 3; ++round) {
+    const Vec2 cell = (high - low) / kCells;
+    for (int i = 0; i < kCells; ++i)
+      for (int j = 0; j < kCells; ++j) {
+        const Vec2 p = low + cell.cwiseProduct(Vec2(i + 0.5, j + 0.5));
+        if (!inside_polygon(polygon, p)) continue;
+        const double clearance = distance_to_polygon(polygon, p);
+        if (clearance > best.clearance) best = {p, clearance};
+      }
+    low = best.at - 1.5 * cell, high = best.at + 1.5 * cell;
+  }
+  return best;
+}
+
+std::array<double, 2> chord_through(const std::vector<Vec2>& polygon, const Vec2& point, const Vec2& direction) {
+  const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
+  double behind = -1e300, ahead = 1e300;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 a = polygon[i] - point, b = polygon[(i + 1) % polygon.size()] - point;
+    const double side_a = cross(direction, a), side_b = cross(direction, b);
+    if ((side_a <= 0) == (side_b <= 0)) continue;
+    const double along = (a + side_a / (side_a - side_b) * (b - a)).dot(direction);
+    along >= 0 ? ahead = std::min(ahead, along) : behind = std::max(behind, along);
+  }
+  if (behind == -1e300 || ahead == 1e300) return {0.0, 0.0};
+  return {behind, ahead};
+}
+
+}  // namespace toile
