@@ -147,16 +147,12 @@ Vec2 curve_point(const Curve& curve, double t) {
   const double r = 1.0 - t;
   const auto& c = curve.shape.control;
   switch (curve.shape.kind) {
-    case CurveKind::Line:
-      return r * curve.start + t * curve.end;
-    case CurveKind::QuadraticBezier:
-      return r * r * curve.start + 2 * r * t * c[0] + t * t * curve.end;
+    case CurveKind::Line: return r * curve.start + t * curve.end;
+    case CurveKind::QuadraticBezier: return r * r * curve.start + 2 * r * t * c[0] + t * t * curve.end;
     case CurveKind::CubicBezier:
       return r * r * r * curve.start + 3 * r * r * t * c[0] + 3 * r * t * t * c[1] + t * t * t * curve.end;
-    case CurveKind::Arc:
-      return arc_point(arc_geometry(curve), t);
-    case CurveKind::Polyline:
-      return polyline_point(curve, t);
+    case CurveKind::Arc: return arc_point(arc_geometry(curve), t);
+    case CurveKind::Polyline: return polyline_point(curve, t);
   }
   return curve.start;
 }
@@ -165,10 +161,8 @@ Vec2 curve_derivative(const Curve& curve, double t) {
   const double r = 1.0 - t;
   const auto& c = curve.shape.control;
   switch (curve.shape.kind) {
-    case CurveKind::Line:
-      return curve.end - curve.start;
-    case CurveKind::QuadraticBezier:
-      return 2 * r * (c[0] - curve.start) + 2 * t * (curve.end - c[0]);
+    case CurveKind::Line: return curve.end - curve.start;
+    case CurveKind::QuadraticBezier: return 2 * r * (c[0] - curve.start) + 2 * t * (curve.end - c[0]);
     case CurveKind::CubicBezier:
       return 3 * r * r * (c[0] - curve.start) + 6 * r * t * (c[1] - c[0]) + 3 * t * t * (curve.end - c[1]);
     case CurveKind::Arc: {
@@ -187,16 +181,13 @@ Vec2 curve_derivative(const Curve& curve, double t) {
 
 double curve_length(const Curve& curve) {
   switch (curve.shape.kind) {
-    case CurveKind::Line:
-      return (curve.end - curve.start).norm();
+    case CurveKind::Line: return (curve.end - curve.start).norm();
     case CurveKind::Arc: {
       const ArcGeometry arc = arc_geometry(curve);
       return arc.radius * std::abs(arc.sweep);
     }
-    case CurveKind::Polyline:
-      return polyline_length(polyline_corners(curve));
-    default:
-      return length_table(curve).back();
+    case CurveKind::Polyline: return polyline_length(polyline_corners(curve));
+    default: return length_table(curve).back();
   }
 }
 
@@ -235,8 +226,7 @@ std::vector<Vec2> flatten_curve(const Curve& curve, double tolerance) {
 
 double curve_signed_area(const Curve& curve) {
   switch (curve.shape.kind) {
-    case CurveKind::Line:
-      return 0.5 * cross(curve.start, curve.end);
+    case CurveKind::Line: return 0.5 * cross(curve.start, curve.end);
     case CurveKind::Arc: {
       const ArcGeometry arc = arc_geometry(curve);
       return 0.5 * (arc.radius * arc.radius * arc.sweep + cross(arc.centre, curve.end - curve.start));
