@@ -3,18 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace toile {
 namespace {
 
-// Floor of |sin| in a cotangent: a sliver would otherwise make one hinge stiffer than all the cloth around it.
+// Floor of |sin| in a cotangent: a sliver would otherwise stiffen all the cloth around it.
 constexpr double kLeastSine = 0.05;
 
-struct HalfHinge {
-  std::pair<int, int> edge;  // nodes, ascending
-  int opposite;              // node
-  double cot_low, cot_high;  // cotangents of the angles at edge.first and edge.second
+struct RestTriangle {
+  Eigen::Vector3i nodes;
+  Vec3 cotangent;       // of the angle at each corner
+  Vec3 length_squared;  // of the edge opposite each corner
   double area;
 };
 
@@ -24,67 +23,107 @@ double cotangent(const Vec2& at, const Vec2& a, const Vec2& b) {
   return u.dot(v) / std::max(std::abs(u.x() * v.y() - u.y() * v.x()), kLeastSine * product);
 }
 
-std::set<std::pair<int, int>> turned_over_edges(const Pattern& pattern, const PatternMesh& mesh) {
-  std::set<std::pair<int, int>> edges;
-  for (std::size_t s = 0; s < mesh.seam_vertices.size() && s < pattern.seams.size(); ++s) {
-    if (!pattern.seams[s].right_wrong) continue;
-    const auto& pairs = mesh.seam_vertices[s];
-    for (std::size_t i = 0; i + 1 < pairs.size(); ++i) {
-      const int a = mesh.node_of_vertex[static_cast<std::size_t>(pairs[i].first)];
-      const int b = mesh.node_of_vertex[static_cast<std::size_t>(pairs[i + 1].first)];
-      edges.insert(std::minmax(a, b));
-    }
-  }
-  return edges;
-}
-
-std::vector<HalfHinge> half_hinges(const PatternMesh& mesh) {
-  std::vector<HalfHinge> halves;
+std::vector<RestTriangle> rest_triangles(const PatternMesh& mesh) {
+  std::vector<RestTriangle> triangles;
   for (int f = 0; f < mesh.triangle_count(); ++f) {
-    const Eigen::Vector3i n = mesh.nodes_of_triangle(f);
-    if (n[0] == n[1] || n[1] == n[2] || n[2] == n[0]) continue;
-    const Vec2 p[3] = {mesh.rest.row(mesh.triangles(f, 0)), mesh.rest.row(mesh.triangles(f, 1)),
-                       mesh.rest.row(mesh.triangles(f, 2))};
-    const Vec2 e1 = p[1] - p[0], e2 = p[2] - p[0];
-    const double area = 0.5 * std::abs(e1.x() * e2.y() - e1.y() * e2.x());
+    RestTriangle t;
+    t.nodes = mesh.nodes_of_triangle(f);
+    if (t.nodes[0] == t.nodes[1] || t.nodes[1] == t.nodes[2] || t.nodes[2] == t.nodes[0]) continue;
+    Vec2 p[3];
+    for (int k = 0; k < 3; ++k) p[k] = mesh.rest.row(mesh.triangles(f, k));
     for (int k = 0; k < 3; ++k) {
-      const int i = (k + 1) % 3, j = (k + 2) % 3;
-      const double at_i = cotangent(p[i], p[j], p[k]), at_j = cotangent(p[j], p[k], p[i]);
-      const bool ascending = n[i] < n[j];
-      halves.push_back({std::minmax(n[i], n[j]), n[k], ascending ? at_i : at_j, ascending ? at_j : at_i, area});
+      const Vec2 &next = p[(k + 1) % 3], &last = p[(k + 2) % 3];
+      t.cotangent[k] = cotangent(p[k], next, last);
+      t.length_squared[k] = (next - last).squaredNorm();
     }
+    const Vec2 e1 = p[1] - p[0], e2 = p[2] - p[0];
+    t.area = 0.5 * std::abs(e1.x() * e2.y() - e1.y() * e2.x());
+    triangles.push_back(t);
   }
-  std::stable_sort(halves.begin(), halves.end(),
-                   [](const HalfHinge& a, const HalfHinge& b) { return a.edge < b.edge; });
-  return halves;
+  return triangles;
 }
 
-void add_hinge(const HalfHinge& l, const HalfHinge& r, double stiffness, std::vector<Eigen::Triplet<double>>& entries) {
-  const int node[4] = {l.edge.first, l.edge.second, l.opposite, r.opposite};
-  const double k[4] = {l.cot_high + r.cot_high, l.cot_low + r.cot_low, -l.cot_low - l.cot_high,
-                       -r.cot_low - r.cot_high};
-  const double scale = stiffness * 3 / (l.area + r.area);
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) entries.emplace_back(node[i], node[j], scale * k[i] * k[j]);
+// Share of a triangle's area that is nearest to corner k; in an obtuse triangle half goes to the obtuse corner.
+double voronoi_area(const RestTriangle& t, int k) {
+  int widest = 0;
+  const bool obtuse = t.cotangent.minCoeff(&widest) < 0;
+  if (obtuse) return widest == k ? 0.5 * t.area : 0.25 * t.area;
+  const int i = (k + 1) % 3, j = (k + 2) % 3;
+  return (t.length_squared[i] * t.cotangent[i] + t.length_squared[j] * t.cotangent[j]) / 8;
+}
+
+// Nodes on edges with one triangle or more than two.
+std::vector<bool> boundary_nodes(const std::vector<RestTriangle>& triangles, int node_count) {
+  std::vector<std::pair<int, int>> edges;
+  for (const RestTriangle& t : triangles)
+    for (int k = 0; k < 3; ++k) edges.push_back(std::minmax({t.nodes[k], t.nodes[(k + 1) % 3]}));
+  std::sort(edges.begin(), edges.end());
+  std::vector<bool> boundary(static_cast<std::size_t>(node_count), false);
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t end = i;
+    while (end < edges.size() && edges[end] == edges[i]) ++end;
+    if (end - i != 2) {
+      boundary[static_cast<std::size_t>(edges[i].first)] = true;
+      boundary[static_cast<std::size_t>(edges[i].second)] = true;
+    }
+    i = end;
+  }
+  return boundary;
+}
+
+void free_turned_over_seams(const Pattern& pattern, const PatternMesh& mesh, std::vector<bool>& free) {
+  for (std::size_t s = 0; s < mesh.seam_vertices.size() && s < pattern.seams.size(); ++s)
+    if (pattern.seams[s].right_wrong)
+      for (const auto& [a, b] : mesh.seam_vertices[s])
+        free[static_cast<std::size_t>(mesh.node_of_vertex[static_cast<std::size_t>(a)])] = true;
+}
+
+// Area each node answers for: its own, and what its free neighbours, which have no curvature of their own, leave to
+// their inner neighbours in equal parts. Without it cloth is softer by half a row of triangles along every edge.
+Eigen::VectorXd bent_area(const std::vector<RestTriangle>& triangles, const Eigen::VectorXd& area,
+                          const std::vector<bool>& free) {
+  const auto is_free = [&](int node) { return free[static_cast<std::size_t>(node)]; };
+  Eigen::VectorXd links = Eigen::VectorXd::Zero(area.size()), bent = area;
+  for (const RestTriangle& t : triangles)
+    for (int k = 0; k < 3; ++k)
+      for (int other : {t.nodes[(k + 1) % 3], t.nodes[(k + 2) % 3]})
+        if (is_free(t.nodes[k]) && !is_free(other)) links[t.nodes[k]] += 1;
+  for (const RestTriangle& t : triangles)
+    for (int k = 0; k < 3; ++k)
+      for (int other : {t.nodes[(k + 1) % 3], t.nodes[(k + 2) % 3]})
+        if (is_free(t.nodes[k]) && !is_free(other)) bent[other] += area[t.nodes[k]] / links[t.nodes[k]];
+  return bent;
 }
 
 }  // namespace
 
 SparseMatrix bending_matrix(const Pattern& pattern, const PatternMesh& mesh) {
-  const auto turned_over = turned_over_edges(pattern, mesh);
-  const std::vector<HalfHinge> halves = half_hinges(mesh);
+  const std::vector<RestTriangle> triangles = rest_triangles(mesh);
+  std::vector<bool> free = boundary_nodes(triangles, mesh.node_count);
+  free_turned_over_seams(pattern, mesh, free);
+
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(halves.size() * 8);
-  for (std::size_t i = 0; i < halves.size();) {
-    std::size_t end = i + 1;
-    while (end < halves.size() && halves[end].edge == halves[i].edge) ++end;
-    const bool hinge = end - i == 2 && halves[i].opposite != halves[i + 1].opposite;
-    if (hinge && !turned_over.contains(halves[i].edge))
-      add_hinge(halves[i], halves[i + 1], pattern.fabric.bending_stiffness, entries);
-    i = end;
-  }
-  SparseMatrix matrix(mesh.node_count, mesh.node_count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  entries.reserve(triangles.size() * 12);
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(mesh.node_count);
+  for (const RestTriangle& t : triangles)
+    for (int k = 0; k < 3; ++k) {
+      const int i = t.nodes[(k + 1) % 3], j = t.nodes[(k + 2) % 3];
+      const double weight = 0.5 * t.cotangent[k];
+      area[t.nodes[k]] += voronoi_area(t, k);
+      for (const auto& [row, col] : {std::pair(i, j), std::pair(j, i)}) {
+        if (free[static_cast<std::size_t>(row)]) continue;
+        entries.emplace_back(row, col, weight);
+        entries.emplace_back(row, row, -weight);
+      }
+    }
+  SparseMatrix laplacian(mesh.node_count, mesh.node_count);
+  laplacian.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::VectorXd bent = bent_area(triangles, area, free);
+  Eigen::VectorXd scale(mesh.node_count);
+  for (int i = 0; i < mesh.node_count; ++i)
+    scale[i] = area[i] > 0 ? pattern.fabric.bending_stiffness * bent[i] / (area[i] * area[i]) : 0.0;
+  SparseMatrix matrix = SparseMatrix(laplacian.transpose()) * scale.asDiagonal() * laplacian;
+  matrix.makeCompressed();
   return matrix;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bending of cloth that is flat at rest, as a constant quadratic form: E = sum over coordinates of x^T Q x / 2 with
-// Q = B sum over hinges 3 / (A0 + A1) k k^T, k the cotangent stencil of the hinge's two triangles.
-// It approximates B/2 times the integral of the squared mean curvature (k1 + k2)^2, whatever the mesh; free edges carry
-// no moment. Source: [Bergou2006, Wardetzky2007] (quadratic isometric bending). N/m per coordinate.
+// Bending of cloth that is flat at rest, as a constant quadratic form: E = sum over coordinates of x^T Q x / 2,
+// Q = B L^T M^-1 L, L the cotangent Laplacian of the rest shape and M its Voronoi areas. It is B/2 times the integral
+// of the squared mean curvature (k1 + k2)^2, whatever the mesh (a hinge model is up to three times stiffer on some
+// meshes). Rows of free edges are left out: they carry no moment. Source: design/method.md, section 3. N/m per
+// coordinate.
 #pragma once
 
 #include "engine/core/pattern.h"
@@ -11,8 +12,8 @@
 
 namespace toile {
 
-// #N x #N, both triangles stored. Hinges across `right_wrong` seams, and edges where more than two triangles meet, are
-// free.
+// #N x #N, both triangles stored. Cloth does not bend across `right_wrong` seams (one piece is turned over there) and
+// across edges where more than two triangles meet.
 SparseMatrix bending_matrix(const Pattern& pattern, const PatternMesh& mesh);
 
 }  // namespace toile

@@ -32,12 +32,13 @@ Contact::Contact(const Cloth& cloth, SignedField& field, const ContactOptions& o
       distance_(Eigen::VectorXd::Zero(cloth.node_count)),
       looked_up_at_(Points3::Zero(cloth.node_count, 3)),
       known_(static_cast<std::size_t>(cloth.node_count), false),
+      taken_up_(Eigen::VectorXd::Zero(cloth.node_count)),
       load_(Eigen::VectorXd::Zero(cloth.node_count)),
       anchor_(Points3::Zero(cloth.node_count, 3)),
       normal_(Points3::Zero(cloth.node_count, 3)) {}
 
 bool Contact::near(Eigen::Index i, const Vec3& p, Vec3& normal) {
-  const double t = options_.thickness;
+  const double t = options_.thickness + taken_up_[i];
   const double clear = distance_[i] - t;
   const Vec3 last = looked_up_at_.row(i);
   if (known_[static_cast<std::size_t>(i)] && clear > 0 && (p - last).squaredNorm() < clear * clear) return false;
@@ -55,7 +56,7 @@ double Contact::energy_gradient(const Points3& nodes, Points3& gradient) {
     if (near(i, p, normal)) {
       double slope = 0;
       const double k = options_.stiffness * cloth_.node_area[i];
-      energy += k * contact_profile(options_.thickness - distance_[i], options_.linear_beyond, slope);
+      energy += k * contact_profile(depth(i), options_.linear_beyond, slope);
       gradient.row(i) -= (k * slope * normal).transpose();
     }
     if (!frozen_ || load_[i] <= 0) continue;
@@ -78,10 +79,13 @@ void Contact::freeze_friction(const Points3& nodes, const Points3& pull, double 
     const Vec3 p = nodes.row(i);
     Vec3 normal;
     load_[i] = 0;
-    const double depth = options_.thickness - field_.evaluate(p, options_.thickness + reach, normal);
-    if (depth <= -reach) continue;
+    const double sunk =
+        options_.thickness + taken_up_[i] - field_.evaluate(p, options_.thickness + taken_up_[i] + reach, normal);
+    if (options_.multipliers) taken_up_[i] = std::max(0.0, sunk);
+    known_[static_cast<std::size_t>(i)] = false;
+    if (sunk <= -reach) continue;
     double slope = 0;
-    contact_profile(depth, options_.linear_beyond, slope);
+    contact_profile(sunk, options_.linear_beyond, slope);
     const double length = std::max(normal.norm(), kLeastSlope);
     const double pressed = options_.stiffness * cloth_.node_area[i] * slope * length;
     load_[i] = options_.friction * std::max(pressed, pull.row(i).dot(normal) / length);
@@ -95,7 +99,7 @@ void Contact::drop_friction() {
 
 void Contact::stiffness_diagonal(Eigen::VectorXd& diagonal) const {
   for (Eigen::Index i = 0; i < distance_.size(); ++i)
-    diagonal[i] = distance_[i] < options_.thickness ? options_.stiffness * cloth_.node_area[i] : 0.0;
+    diagonal[i] = depth(i) > 0 ? options_.stiffness * cloth_.node_area[i] : 0.0;
 }
 
 }  // namespace toile

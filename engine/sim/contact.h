@@ -18,6 +18,8 @@ struct ContactOptions {
   double linear_beyond = 0.01;  // d1, m: deeper nodes are pushed with constant force
   double friction = 0.3;        // mu, dimensionless, >= 0; 0: none
   double slip_length = 0.001;   // e, m, > 0: below it friction is a spring
+  bool multipliers =
+      false;  // every freeze takes up the present force as a constant one: rounds of it press out all depth
 };
 
 // f and f' above.
@@ -34,6 +36,7 @@ class Contact {
   double energy_gradient(const Points3& nodes, Points3& gradient);
 
   // Takes `nodes` as the place where friction holds them from now on, with the contact forces of this moment.
+  // The energy changes: evaluate again.
   void freeze_friction(const Points3& nodes);
   // The same at a start where contact has not been felt yet: a node within `reach` of the contact thickness presses as
   // hard as `pull`, the gradient of all other energies (#N x 3, N), draws it to the body. Without it a garment starts
@@ -51,6 +54,8 @@ class Contact {
  private:
   // Distance and gradient at a node, skipped while the node cannot have come into contact since it was last looked up.
   bool near(Eigen::Index i, const Vec3& p, Vec3& normal);
+  // Depth that counts for the force.
+  double depth(Eigen::Index i) const { return options_.thickness - distance_[i] + taken_up_[i]; }
 
   const Cloth& cloth_;
   SignedField& field_;
@@ -59,6 +64,7 @@ class Contact {
   Points3 looked_up_at_;      // #N x 3, where distance_ was taken
   std::vector<bool> known_;   // #N
 
+  Eigen::VectorXd taken_up_;  // #N, depth whose force is applied without any depth; only with multipliers, m
   bool frozen_ = false;
   Eigen::VectorXd load_;     // #N, mu N of the last freeze, N
   Points3 anchor_, normal_;  // #N x 3
