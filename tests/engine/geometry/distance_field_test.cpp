@@ -52,7 +52,7 @@ TEST(DistanceField, SurfaceFieldIsCloseToTheExactDistanceOnBothSides) {
   const Body body = test::tube_body("tube", radius, 0.5, 200, 40);
   SurfaceField field(body.surface.vertices, body.surface.triangles);
   Vec3 gradient;
-  for (const Vec3& p : points_near_wall(radius, 0.5, 0.03, 2000)) {
+  for (const Vec3& p : points_near_wall(radius, 0.5, 0.015, 2000)) {
     const double exact = std::hypot(p.x(), p.z()) - radius;
     // A quadratic B-spline of spacing h lies h^2 / (8 r) above a distance of curvature 1 / r.
     ASSERT_NEAR(field.evaluate(p, kFar, gradient), exact, 0.3e-3);
@@ -64,7 +64,7 @@ TEST(DistanceField, SurfaceFieldIsCloseToTheExactDistanceOnBothSides) {
 TEST(DistanceField, GradientIsTheDerivativeAcrossLatticeCells) {
   const Body body = test::tube_body("tube", 0.05, 0.5, 200, 40);
   SurfaceField field(body.surface.vertices, body.surface.triangles);
-  for (const Vec3& p : points_near_wall(0.05, 0.5, 0.02, 200)) expect_gradient(field, p, 1e-4);
+  for (const Vec3& p : points_near_wall(0.05, 0.5, 0.015, 200)) expect_gradient(field, p, 1e-4);
 }
 
 TEST(DistanceField, TouchingAndOverlappingPartsAreInside) {
