@@ -68,10 +68,14 @@ class Crossings {
   void rasterise(const Vec3& a, const Vec3& b, const Vec3& c, int pass) {
     const auto index = [&](double v, int axis) { return (v - origin_[axis]) / spacing_; };
     const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    const int x0 = std::max(0, static_cast<int>(std::ceil(index(low.x(), 0)))),
-              x1 = std::min(nx_ - 1, static_cast<int>(std::floor(index(high.x(), 0)))),
-              y0 = std::max(0, static_cast<int>(std::ceil(index(low.y(), 1)))),
-              y1 = std::min(ny_ - 1, static_cast<int>(std::floor(index(high.y(), 1))));
+    // Widened by a little: which triangle owns a line is for line_crossing alone to say, not for rounding here.
+    const auto first = [&](double v, int axis) {
+      return std::max(0, static_cast<int>(std::ceil(index(v, axis) - 1e-6)));
+    };
+    const auto last = [&](double v, int axis, int count) {
+      return std::min(count - 1, static_cast<int>(std::floor(index(v, axis) + 1e-6)));
+    };
+    const int x0 = first(low.x(), 0), x1 = last(high.x(), 0, nx_), y0 = first(low.y(), 1), y1 = last(high.y(), 1, ny_);
     for (int iy = y0; iy <= y1; ++iy)
       for (int ix = x0; ix <= x1; ++ix) {
         const Vec2 at = origin_ + spacing_ * Vec2(ix, iy);
