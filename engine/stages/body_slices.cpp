@@ -13,6 +13,7 @@ constexpr double kMergeWithin = 0.004;    // pieces whose boxes are nearer are o
 constexpr double kMiddle = 0.004;         // a piece that reaches this near to x = 0 spans the mid-plane
 constexpr double kThicknessBand = 0.008;  // half width about the mid-plane
 constexpr double kLegReach = 0.20;        // a leg's middle is at most this far to the side; hands are further
+constexpr double kCentral = 0.02;         // a piece with its middle this near to x = 0 lies on the mid-plane
 constexpr double kLimbGirth = 0.08;       // thinner pieces are fingers, specks or folds
 
 bool spans_middle(const SliceComponent& c, double within) {
@@ -21,10 +22,11 @@ bool spans_middle(const SliceComponent& c, double within) {
 
 }  // namespace
 
-BodySlices::BodySlices(const TriangleMesh& body) : slicer_(body), height_(std::max(slicer_.top(), 1e-6)) {}
+BodySlices::BodySlices(const TriangleMesh& body, bool broken)
+    : slicer_(body), height_(std::max(slicer_.top(), 1e-6)), merge_within_(broken ? kMergeWithin * height_ : -1.0) {}
 
 std::vector<SliceComponent> BodySlices::pieces(double y) const {
-  return slicer_.slice(y, kMergeWithin * height_);
+  return slicer_.slice(y, merge_within_);
 }
 
 std::optional<SliceComponent> BodySlices::middle(double y) const {
@@ -62,6 +64,16 @@ double BodySlices::middle_thickness(double y) const {
       front = std::max(front, p.y()), back = std::min(back, p.y());
   }
   return front > back ? front - back : 0.0;
+}
+
+bool BodySlices::middle_closed(double y) const {
+  double left = 1e300, right = -1e300;  // the inmost points of both sides
+  for (const SliceComponent& c : slicer_.slice(y)) {
+    const double x = c.centre().x();
+    if (std::abs(x) < kCentral * height_) return true;
+    x > 0 ? left = std::min(left, c.low.x()) : right = std::max(right, c.high.x());
+  }
+  return right >= left;
 }
 
 bool BodySlices::arm_apart(double y, Side side) const {

@@ -8,12 +8,11 @@ namespace toile {
 
 class BodySlices {
  public:
-  explicit BodySlices(const TriangleMesh& body);
+  // `broken` outlines (scans with holes): pieces whose boxes nearly touch are taken as one.
+  explicit BodySlices(const TriangleMesh& body, bool broken = true);
 
-  double floor() const { return 0.0; }
   double height() const { return height_; }  // m, top of the body over the floor
 
-  // Pieces of the slice; an outline broken by holes is one piece.
   std::vector<SliceComponent> pieces(double y) const;
   // The pieces that span the mid-plane, as one: trunk, neck or head (holes under the armpits part front and back).
   std::optional<SliceComponent> middle(double y) const;
@@ -23,12 +22,15 @@ class BodySlices {
   std::vector<Vec2> leg(double y, Side side) const;
   // Front-to-back thickness of all pieces at the mid-plane, 0 where they leave it open.
   double middle_thickness(double y) const;
+  // Whether a piece, however small, lies on the mid-plane, or those of both sides overlap there.
+  bool middle_closed(double y) const;
   // Whether an arm is a piece of its own at this side.
   bool arm_apart(double y, Side side) const;
 
  private:
   MeshSlicer slicer_;
   double height_;
+  double merge_within_;
 };
 
 }  // namespace toile
