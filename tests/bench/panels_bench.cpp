@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "engine/io/pdf.h"
 #include "engine/io/svg.h"
 #include "engine/render/drawing_picture.h"
 #include "engine/render/png.h"
@@ -13,9 +14,22 @@
 
 namespace toile::bench {
 
+namespace {
+
+Bytes file_of(const Drawing& drawing, const std::string& name, const std::string& sheet) {
+  if (name.ends_with(".svg")) return io::write_svg(drawing);
+  if (!name.ends_with(".pdf")) return write_png(draw_picture(drawing));
+  if (sheet == "Letter") return io::write_pdf(drawing, {io::PdfSheet::Letter, {}});
+  if (sheet == "A0") return io::write_pdf(drawing, {io::PdfSheet::A0, {}});
+  if (sheet == "projector") return io::write_pdf(drawing, {io::PdfSheet::Projector, {}});
+  return io::write_pdf(drawing);
+}
+
+}  // namespace
+
 int bench_panels(const Arguments& arguments) {
-  if (arguments.words.size() != 2) {
-    std::fprintf(stderr, "usage: toile-bench panels GARMENT.json OUT.png|OUT.svg\n");
+  if (arguments.words.size() < 2 || arguments.words.size() > 3) {
+    std::fprintf(stderr, "usage: toile-bench panels GARMENT.json OUT.png|OUT.svg|OUT.pdf [A4|Letter|A0|projector]\n");
     return 2;
   }
   std::ifstream in(arguments.words[0], std::ios::binary);
@@ -25,7 +39,8 @@ int bench_panels(const Arguments& arguments) {
   const Drawing drawing = draw_pattern(pattern);
   const double drawn = cpu_seconds();
   const std::string& out = arguments.words[1];
-  const Bytes bytes = out.ends_with(".svg") ? io::write_svg(drawing) : write_png(draw_picture(drawing));
+  const std::string sheet = arguments.words.size() > 2 ? arguments.words[2] : "A4";
+  const Bytes bytes = file_of(drawing, out, sheet);
   std::printf("drawing %.1f ms, file %.1f ms (CPU), %zu bytes\n", 1e3 * (drawn - start), 1e3 * (cpu_seconds() - drawn),
               bytes.size());
   std::ofstream(out, std::ios::binary)
