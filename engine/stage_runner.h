@@ -5,6 +5,7 @@
 // with one key are equal, so a key stands for its value downstream. Clocks are kept apart from results.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <string>
@@ -40,15 +41,22 @@ std::string key_of(const T&... values) {
 
 class StageRunner {
  public:
-  // Either may be null.
-  StageRunner(StageCache* cache, const Progress* progress) : cache_(cache), progress_(progress) {}
+  StageRunner(const StageRunner&) = delete;
+  StageRunner& operator=(const StageRunner&) = delete;
+
+  // Both may be null; they must outlive the runner. `stages` is how many the whole job runs.
+  StageRunner(StageCache* cache, const Progress* progress, int stages);
+
+  // To be handed to stages: what they report as a fraction of their own work is passed on as one of the whole job.
+  Progress* progress() { return &stage_progress_; }
 
   // `work()` returns the stage's result, which archive() writes and reads. `inputs` are keys and archived options.
   template <class Work>
   auto run(std::string_view stage, int version, const std::string& inputs, Work&& work)
       -> Keyed<std::invoke_result_t<Work>> {
     using Result = std::invoke_result_t<Work>;
-    report(progress_, stage, 0.0);
+    stage_ = stage;
+    report(&stage_progress_, stage, 0.0);
     const Clocks start;
     Keyed<Result> result{{}, key_of(std::string(stage), version, inputs)};
     bool reused = false;
@@ -63,7 +71,8 @@ class StageRunner {
       if (cache_) cache_->put(result.key, to_bytes(result.value));
     }
     timings_.push_back(start.until_now(std::string(stage), reused));
-    report(progress_, stage, 1.0);
+    report(&stage_progress_, stage, 1.0);
+    ++stages_done_;
     return result;
   }
 
@@ -86,8 +95,21 @@ class StageRunner {
   };
 
   StageCache* cache_;
-  const Progress* progress_;
+  Progress stage_progress_;
+  std::string stage_;  // the pipeline's name for what runs now
+  int stages_, stages_done_ = 0;
+  double furthest_ = 0.0;
   std::vector<StageTiming> timings_;
 };
+
+inline StageRunner::StageRunner(StageCache* cache, const Progress* progress, int stages)
+    : cache_(cache), stages_(stages) {
+  if (!progress) return;
+  stage_progress_.cancelled = progress->cancelled;
+  stage_progress_.report = [this, progress](std::string_view, double fraction) {
+    furthest_ = std::max(furthest_, std::min(1.0, (stages_done_ + fraction) / stages_));  // a stage may go in rounds
+    if (progress->report) progress->report(stage_, furthest_);
+  };
+}
 
 }  // namespace toile

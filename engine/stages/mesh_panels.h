@@ -18,7 +18,7 @@ namespace toile {
 
 struct MeshPanelsOptions {
   int triangles = 10000;              // of the whole garment, met within some percent; 500-200000
-  std::optional<double> edge_length;  // m; target instead of a count, > 0
+  std::optional<double> edge_length = {};  // m; target instead of a count, > 0
 };
 
 // Throws Error{OptionInvalid} (targets out of range), Error{GarmentInvalid} (a panel too thin to be meshed), Cancelled.

@@ -69,6 +69,8 @@ int main(int argc, char** argv) {
     context.json_log ? log_progress_json(stage, fraction) : show_progress(stage, fraction);
   };
 
+  app::add_alter_command(app, context);
+  app::add_drape_command(app, context);
   app::add_version_command(app, context);
 
   try {

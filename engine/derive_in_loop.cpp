@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/derive_in_loop.h"
+
+#include "engine/stages/build_fitting_map.h"
+
+namespace toile {
+namespace {
+
+struct Scene {
+  const Pattern& pattern;
+  const PatternMesh& reference_mesh;
+  const FittingMap& reference_fit;
+  const Body& target_body;
+};
+
+// One pass: the pattern that would make `shape` fit as on the reference body, and how it really drapes.
+DerivedPattern derive_and_drape(const Scene& scene, const Drape& shape, const DerivePatternOptions& derive_options,
+                                const DrapeOptions& drape_options, Progress* progress) {
+  DerivedPattern pass;
+  pass.derivation =
+      derive_pattern(scene.pattern, scene.reference_mesh, scene.reference_fit, shape, derive_options, progress);
+  pass.mesh = scene.reference_mesh;
+  pass.mesh.rest = pass.derivation.rest;
+  pass.drape = drape_from(scene.pattern, pass.mesh, scene.target_body, shape, drape_options, progress);
+  pass.fit = build_fitting_map(pass.mesh, pass.drape.drape);
+  pass.rms_stretch_error = compare_fits(scene.reference_mesh, scene.reference_fit, pass.fit).whole.rms_stretch;
+  return pass;
+}
+
+}  // namespace
+
+DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& reference_mesh,
+                              const FittingMap& reference_fit, const Body& target_body, const Drape& transported,
+                              const DerivePatternOptions& derive_options, const DrapeOptions& drape_options,
+                              const DeriveInLoopOptions& options, Progress* progress) {
+  const Scene scene{pattern, reference_mesh, reference_fit, target_body};
+  DerivedPattern best = derive_and_drape(scene, transported, derive_options, drape_options, progress);
+  std::vector<double> errors = {best.rms_stretch_error};
+  while (static_cast<int>(errors.size()) < options.max_passes && best.rms_stretch_error > options.good_enough) {
+    DerivedPattern next = derive_and_drape(scene, best.drape.drape, derive_options, drape_options, progress);
+    errors.push_back(next.rms_stretch_error);
+    const bool worth_another = next.rms_stretch_error < (1.0 - options.least_gain) * best.rms_stretch_error;
+    if (next.rms_stretch_error < best.rms_stretch_error) best = std::move(next);
+    if (!worth_another) break;
+  }
+  best.pass_errors = std::move(errors);
+  return best;
+}
+
+}  // namespace toile

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Derivation with physics in the loop: derive a pattern, drape it, and derive again from that drape while the fit gets
+// nearer to the reference.
+//
+// The first pass inverts the transported drape, which no physics has relaxed yet; each later pass inverts the drape of
+// the pattern before it. The pass with the smallest rms stretch error is kept.
+// Source: [Eggler2024, Sec. 5.1 "Accounting for physics"]; the order of the passes was measured, see method.md
+// section 4.
+#pragma once
+
+#include "engine/stages/compare_fits.h"
+#include "engine/stages/derive_pattern.h"
+#include "engine/stages/drape.h"
+
+namespace toile {
+
+struct DeriveInLoopOptions {
+  int max_passes = 3;          // derivations, each with its drape, 1..5
+  double good_enough = 0.002;  // rms stretch error at which no further pass is tried, dimensionless
+  double least_gain = 0.05;    // share of the error a pass must have gained for another one to be tried
+};
+
+struct DerivedPattern {
+  PatternMesh mesh;  // the reference mesh with `rest` at the target pattern
+  DrapeResult drape;
+  FittingMap fit;
+  double rms_stretch_error = 0.0;   // against the reference fit
+  std::vector<double> pass_errors;  // of every pass tried, in order
+  DerivePatternResult derivation;   // of the pass that is kept
+};
+
+// Requires and throws what derive_pattern and drape_from do.
+DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& reference_mesh,
+                              const FittingMap& reference_fit, const Body& target_body, const Drape& transported,
+                              const DerivePatternOptions& derive_options, const DrapeOptions& drape_options,
+                              const DeriveInLoopOptions& options = {}, Progress* progress = nullptr);
+
+}  // namespace toile

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/pipeline.h"
+
+#include "engine/archive_stages.h"
+#include "engine/stage_options.h"
+
+namespace toile {
+
+Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput& body, const AlterOptions& options,
+                                   StageRunner& runner) {
+  const MeshPanelsOptions mesh_options = mesh_options_of(options);
+  const DrapeOptions drape_options = drape_options_of(options);
+  const auto pattern = runner.run("import_pattern", 1, input_key(garment), [&] { return read_garment(garment); });
+  const auto wearer = runner.run("import_body", 1, input_key(body), [&] { return read_body(body); });
+  const auto mesh = runner.run("mesh_panels", 1, key_of(pattern.key, mesh_options),
+                               [&] { return mesh_panels(pattern.value, mesh_options, runner.progress()); });
+  const auto worn = runner.run("drape", 1, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
+    return drape(pattern.value, mesh.value, wearer.value, drape_options, runner.progress());
+  });
+  return {{pattern.value, mesh.value, wearer.value, worn.value, build_fitting_map(mesh.value, worn.value.drape)},
+          worn.key};
+}
+
+AlterResult alter_garment(const GarmentInput& garment, const BodyInput& reference_body, const BodyInput& target_body,
+                          const AlterOptions& options, StageRunner& runner) {
+  const DrapeOptions drape_options = drape_options_of(options);
+  const DerivePatternOptions derive_options = derive_options_of(options);
+  const DeriveInLoopOptions loop_options = loop_options_of(options);
+
+  auto reference = drape_garment(garment, reference_body, options, runner);
+  const auto& [pattern, mesh, wearer, worn, fit] = reference.value;
+  const auto target = runner.run("import_body", 1, input_key(target_body), [&] { return read_body(target_body); });
+  const auto registered = runner.run("register_bodies", 1, key_of(input_key(reference_body), target.key),
+                                     [&] { return register_bodies(wearer, target.value, {}, runner.progress()); });
+  const auto transported = runner.run("transport_garment", 1, key_of(reference.key, registered.key), [&] {
+    return transport_garment(worn.drape, wearer, target.value, registered.value.map, {}, runner.progress());
+  });
+  const auto before = runner.run("drape_before", 1, key_of(transported.key, drape_options), [&] {
+    return drape_from(pattern, mesh, target.value, transported.value.drape, drape_options, runner.progress());
+  });
+  const auto derived = runner.run("derive_pattern", 1, key_of(transported.key, derive_options, loop_options), [&] {
+    return derive_in_loop(pattern, mesh, fit, target.value, transported.value.drape, derive_options, drape_options,
+                          loop_options, runner.progress());
+  });
+
+  FittingMap fit_before = build_fitting_map(mesh, before.value.drape);
+  return {std::move(reference.value), target.value, registered.value, transported.value, before.value,
+          std::move(fit_before),      derived.value};
+}
+
+}  // namespace toile

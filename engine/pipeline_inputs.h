@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a user hands in: bytes and how to read them.
+#pragma once
+
+#include "engine/core/body.h"
+#include "engine/core/pattern.h"
+#include "engine/core/types.h"
+#include "engine/stages/import_body.h"
+
+namespace toile {
+
+struct GarmentInput {
+  std::string name;  // of the file, for messages and documents
+  Bytes bytes;       // GarmentCode specification
+};
+
+struct BodyInput {
+  std::string name;  // of the file, or "builtin:NAME" with no bytes
+  Bytes bytes;       // OBJ, PLY or STL
+  ImportBodyOptions import = {};
+};
+
+// Key of an input: the same bytes read the same way have the same key, whatever their name.
+std::string input_key(const GarmentInput& garment);
+std::string input_key(const BodyInput& body);
+
+// Throw the importers' errors; their subject names the input.
+Pattern read_garment(const GarmentInput& garment);
+Body read_body(const BodyInput& body);
+
+}  // namespace toile

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/result_records.h"
+
+#include "engine/core/units.h"
+
+namespace toile {
+namespace {
+
+const char* name(TearWeights weights) {
+  switch (weights) {
+    case TearWeights::Release: return "release";
+    case TearWeights::Boundary: return "boundary";
+    case TearWeights::Greedy: return "greedy";
+  }
+  return "";
+}
+
+const char* name(SymmetryMode symmetry) {
+  switch (symmetry) {
+    case SymmetryMode::Auto: return "auto";
+    case SymmetryMode::Plane: return "plane";
+    case SymmetryMode::Off: return "off";
+  }
+  return "";
+}
+
+const char* name(SolverKind solver) {
+  switch (solver) {
+    case SolverKind::Default: return "default";
+    case SolverKind::Pbd: return "pbd";
+    case SolverKind::Newton: return "newton";
+  }
+  return "";
+}
+
+const char* name(Preset preset) {
+  switch (preset) {
+    case Preset::Draft: return "draft";
+    case Preset::Standard: return "standard";
+    case Preset::Fine: return "fine";
+  }
+  return "";
+}
+
+const char* name(SelfContact contact) {
+  switch (contact) {
+    case SelfContact::Auto: return "auto";
+    case SelfContact::On: return "on";
+    case SelfContact::Off: return "off";
+  }
+  return "";
+}
+
+Record percentiles(const StrainPercentiles& strain) {
+  return Record().add("p50", strain.p50).add("p99", strain.p99);
+}
+
+Record difference_record(const FitDifference& difference) {
+  return Record()
+      .add("rms_stretch", difference.rms_stretch)
+      .add("rms_weft", difference.rms_weft)
+      .add("rms_warp", difference.rms_warp)
+      .add("rms_shear_deg", difference.rms_shear * kDegreePerRadian)
+      .add("mean_weft", difference.mean_weft)
+      .add("mean_warp", difference.mean_warp)
+      .add("area_share_beyond_3_percent", difference.share_beyond)
+      .add("area_cm2", difference.area * kCmPerMetre * kCmPerMetre);
+}
+
+}  // namespace
+
+Record options_record(const AlterOptions& o) {
+  Record record;
+  record.add("max_tears_per_side", o.max_tears_per_side)
+      .add("seam_preference", o.seam_preference)
+      .add("stretch_limit", o.stretch_limit)
+      .add("l_shapes", o.l_shapes)
+      .add("cut_smoothness", o.cut_smoothness)
+      .add("tear_weights", name(o.tear_weights))
+      .add("cuts", o.cuts == CutKind::Straight ? "straight" : "mesh-edges")
+      .add("min_strip_mm", o.min_strip_mm)
+      .add("min_change_mm", o.min_change_mm)
+      .add("symmetry", name(o.symmetry))
+      .add("pin_extremities", o.pin_extremities)
+      .add("physics_passes", o.physics_passes)
+      .add("solver", name(o.solver))
+      .add("fibre_slack", o.fibre_slack)
+      .add("shear_limit_deg", o.shear_limit_deg)
+      .add("preset", name(o.preset))
+      .add("triangles", garment_triangles(o))
+      .add("self_contact", name(o.self_contact))
+      .add("outputs", Record::Value(o.outputs));
+  return record;
+}
+
+Record quality_record(const DrapeQuality& q) {
+  Record record;
+  record.add("rest", std::string(rest_name(q.rest)))
+      .add("residual_node_weights", q.residual)
+      .add("settling_move_mm", q.settling_move * kMmPerMetre)
+      .add("weft_strain", percentiles(q.weft))
+      .add("warp_strain", percentiles(q.warp))
+      .add("shear_deg", Record().add("p50", q.shear.p50 * kDegreePerRadian).add("p99", q.shear.p99 * kDegreePerRadian))
+      .add("deepest_node_mm", q.deepest_node * kMmPerMetre)
+      .add("nodes_deeper_than_1_mm", q.nodes_inside)
+      .add("deepest_edge_midpoint_mm", q.deepest_edge * kMmPerMetre)
+      .add("edge_midpoints_deeper_than_3_mm", q.edges_inside)
+      .add("crossing_pairs", q.crossing_pairs)
+      .add("crossing_triangle_share", q.crossing_share)
+      .add("seam_gap_mm", q.seam_gap * kMmPerMetre);
+  return record;
+}
+
+Record drape_record(const DrapeResult& result) {
+  const DrapeDiagnostics& d = result.diagnostics;
+  Record record;
+  record.add("quality", quality_record(result.quality))
+      .add("sewing_iterations", d.sewing_iterations)
+      .add("iterations", d.iterations)
+      .add("energy_evaluations", d.evaluations)
+      .add("energy_j", d.energy)
+      .add("stalled", d.stalled);
+  return record;
+}
+
+Record fit_record(const Pattern& pattern, const FitComparison& comparison) {
+  std::vector<Record> panels;
+  for (std::size_t p = 0; p < comparison.panels.size(); ++p) {
+    Record panel;
+    panel.add("panel", pattern.panels[p].name).add("difference", difference_record(comparison.panels[p]));
+    panels.push_back(std::move(panel));
+  }
+  Record record;
+  record.add("whole", difference_record(comparison.whole))
+      .add("panels", std::move(panels))
+      .add("degenerate_triangles", comparison.degenerate_triangles);
+  return record;
+}
+
+Record derivation_record(const DerivedPattern& derived) {
+  const DerivePatternResult& d = derived.derivation;
+  Record record;
+  record.add("rms_stretch_error", derived.rms_stretch_error)
+      .add("pass_errors", Record::Value(derived.pass_errors))
+      .add("sweeps", static_cast<int>(d.sweeps.size()))
+      .add("converged", d.converged)
+      .add("fit_residual", d.fit_residual)
+      .add("seam_residual_mm", d.seam_residual * kMmPerMetre)
+      .add("flipped_triangles", d.flipped_triangles)
+      .add("drape", drape_record(derived.drape));
+  return record;
+}
+
+Record body_record(const Body& body) {
+  Record measurements;
+  for (const auto& [measure, metres] : body.measurements) measurements.add(measure + "_mm", metres * kMmPerMetre);
+  Record record;
+  record.add("name", body.name)
+      .add("kind", body.kind == BodyKind::Human ? "human" : "form")
+      .add("vertices", body.surface.vertex_count())
+      .add("triangles", body.surface.triangle_count())
+      .add("measurements", std::move(measurements));
+  std::vector<double> matrix;
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) matrix.push_back(body.normalised_from_file(r, c));
+  record.add("normalised_from_file", Record::Value(std::move(matrix)));
+  return record;
+}
+
+}  // namespace toile

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Stage results as the records that result.json is made of. Names end in their unit.
+#pragma once
+
+#include "engine/core/options.h"
+#include "engine/core/record.h"
+#include "engine/pipeline.h"
+
+namespace toile {
+
+Record options_record(const AlterOptions& options);
+Record quality_record(const DrapeQuality& quality);
+Record drape_record(const DrapeResult& result);  // quality and diagnostics
+Record fit_record(const Pattern& pattern, const FitComparison& comparison);
+Record derivation_record(const DerivedPattern& derived);
+Record body_record(const Body& body);
+
+}  // namespace toile

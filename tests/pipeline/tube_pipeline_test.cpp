@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The first thread through the whole house: a tube skirt, whose target pattern is known.
+#include <gtest/gtest.h>
+
+#include "engine/outputs.h"
+#include "tests/support/shared_data.h"
+
+namespace toile {
+namespace {
+
+GarmentInput tube_skirt() {
+  return {"tube_skirt.json", test::read_file(std::string(TOILE_SOURCE_DIR) + "/schemas/examples/tube_skirt.json")};
+}
+
+AlterOptions small() {
+  AlterOptions options;
+  options.triangles = 1000;
+  return options;
+}
+
+AlterResult alter_tube(const std::string& from, const std::string& to, StageCache* cache = nullptr) {
+  StageRunner runner(cache, nullptr, kAlterStages);
+  return alter_garment(tube_skirt(), {.name = "builtin:" + from, .bytes = {}}, {.name = "builtin:" + to, .bytes = {}},
+                       small(), runner);
+}
+
+// Mean width and height of the target panels over those of the reference.
+Vec2 growth(const AlterResult& result) {
+  const auto extent = [](const Points2& rest, const PanelRange& panel) -> Vec2 {
+    const auto rows = rest.middleRows(panel.vertex_begin, panel.vertex_end - panel.vertex_begin);
+    return (rows.colwise().maxCoeff() - rows.colwise().minCoeff()).transpose();
+  };
+  Vec2 sum = Vec2::Zero();
+  for (const PanelRange& panel : result.reference.mesh.panels)
+    sum += extent(result.derived.mesh.rest, panel).cwiseQuotient(extent(result.reference.mesh.rest, panel));
+  return sum / static_cast<double>(result.reference.mesh.panels.size());
+}
+
+// Cloth lies a contact thickness off the form: its girth is that of radius + thickness.
+constexpr double kRatioTolerance = 5e-3;
+
+TEST(TubePipeline, ChangesNothingWhenBothBodiesAreTheSame) {
+  const AlterResult result = alter_tube("tube-14-100", "tube-14-100");
+  ASSERT_GT(result.reference.fit.stretch_weft.mean(), 0.02);  // it is a tight skirt: there is something to keep
+  EXPECT_LT((result.derived.mesh.rest - result.reference.mesh.rest).cwiseAbs().maxCoeff(), 5e-4);
+}
+
+TEST(TubePipeline, WidensAndLengthensTheSkirtAsTheFormGrows) {
+  const Vec2 wider = growth(alter_tube("tube-14-100", "tube-18-100"));
+  EXPECT_NEAR(wider.x(), (0.18 + 0.003) / (0.14 + 0.003), kRatioTolerance);
+  EXPECT_NEAR(wider.y(), 1.0, kRatioTolerance);
+  const Vec2 taller = growth(alter_tube("tube-14-100", "tube-14-125"));
+  EXPECT_NEAR(taller.x(), 1.0, kRatioTolerance);
+  EXPECT_NEAR(taller.y(), 1.25, kRatioTolerance);
+}
+
+struct MemoryCache : StageCache {
+  std::map<std::string, Bytes> kept;
+  int hits = 0;
+  std::optional<Bytes> get(const std::string& key) override {
+    const auto found = kept.find(key);
+    if (found == kept.end()) return std::nullopt;
+    ++hits;
+    return found->second;
+  }
+  void put(const std::string& key, const Bytes& value) override { kept.emplace(key, value); }
+};
+
+std::string bytes_of(const AlterResult& result) {
+  std::string all;
+  AlterOptions options = small();
+  options.outputs = {"reference_drape.obj", "target_before.obj"};
+  for (const OutputFile& file : alter_outputs(result, options, {}))
+    all.append(file.name).append(file.bytes.begin(), file.bytes.end());
+  return all;
+}
+
+TEST(TubePipeline, ResumesAfterEveryStageWithTheSameBytes) {
+  MemoryCache cache;
+  const std::string fresh = bytes_of(alter_tube("tube-14-100", "tube-18-100", &cache));
+  const int stages = static_cast<int>(cache.kept.size());
+  ASSERT_GE(stages, 8);
+  EXPECT_EQ(bytes_of(alter_tube("tube-14-100", "tube-18-100", &cache)), fresh);
+  EXPECT_EQ(cache.hits, kAlterStages);
+  for (const auto& [key, value] : std::map<std::string, Bytes>(cache.kept)) {
+    cache.kept.erase(key);
+    EXPECT_EQ(bytes_of(alter_tube("tube-14-100", "tube-18-100", &cache)), fresh);
+    ASSERT_EQ(cache.kept.count(key), 1u);
+    EXPECT_EQ(cache.kept.at(key), value);
+  }
+}
+
+TEST(TubePipeline, ReportsProgressThatNeverFallsAndEndsAtOne) {
+  double last = 0.0;
+  Progress progress;
+  progress.report = [&](std::string_view, double fraction) {
+    EXPECT_GE(fraction, last - 1e-12);
+    last = fraction;
+  };
+  StageRunner runner(nullptr, &progress, kAlterStages);
+  alter_garment(tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
+                {.name = "builtin:tube-11-100", .bytes = {}}, small(), runner);
+  EXPECT_EQ(last, 1.0);
+}
+
+TEST(TubePipeline, EndsAtOnceWhenCancelled) {
+  std::atomic<bool> cancelled{false};
+  Progress progress;
+  progress.cancelled = &cancelled;
+  progress.report = [&](std::string_view stage, double) { cancelled = stage == "drape_before"; };
+  StageRunner runner(nullptr, &progress, kAlterStages);
+  try {
+    alter_garment(tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
+                  {.name = "builtin:tube-18-100", .bytes = {}}, small(), runner);
+    FAIL() << "ran to the end";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::Cancelled);
+  }
+}
+
+}  // namespace
+}  // namespace toile
