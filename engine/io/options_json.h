@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The options of a job as JSON: read with every range checked, written in full, listed for help texts and schemas.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/core/options.h"
+#include "engine/core/types.h"
+#include "engine/io/json.h"
+
+namespace toile::io {
+
+// Options left out keep their defaults, null counts as left out. Throws Error{OptionInvalid} (unknown name, wrong type,
+// out of range) whose subject is the JSON pointer, Error{FileMalformed, LimitExceeded} when the bytes are not JSON.
+AlterOptions read_options(std::span<const std::uint8_t> bytes);
+AlterOptions read_options(const JsonView& object);
+
+// Sets one option from the JSON text of its value ("3", "\"draft\"", "true"); a bare word counts as a string.
+// Throws Error{OptionInvalid} with subject "/NAME".
+void set_option(AlterOptions& options, const std::string& name, const std::string& value);
+
+// Every option, sorted by name; an object that read_options takes back.
+std::string write_options(const AlterOptions& options);
+
+enum class OptionType { Integer, Number, Boolean, Choice, TextList };
+
+struct OptionInfo {
+  std::string name;  // ends in its unit where it has one
+  OptionType type = OptionType::Integer;
+  double least = 0.0, most = 0.0;    // of integers and numbers, inclusive
+  std::vector<std::string> choices;  // of choices
+  std::string default_json;
+};
+std::vector<OptionInfo> list_options();
+
+}  // namespace toile::io
