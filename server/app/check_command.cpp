@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+
+#include "engine/core/error.h"
+#include "engine/io/options_json.h"
+#include "engine/io/schema_check.h"
+#include "engine/stages/import_body.h"
+#include "engine/stages/import_pattern.h"
+#include "server/app/command.h"
+#include "server/app/files.h"
+
+namespace toile::app {
+
+namespace {
+
+bool looks_like_json(const Bytes& bytes) {
+  const auto first = std::find_if(bytes.begin(), bytes.end(), [](std::uint8_t c) { return !std::isspace(c); });
+  return first != bytes.end() && (*first == '{' || *first == '[');
+}
+
+// What a schema cannot say: outlines, seams, ranges that hang together.
+void check_contents(const Bytes& bytes, const std::string& schema, Context& context) {
+  if (schema == "garment") import_pattern(bytes, &context.progress);
+  if (schema == "options") io::read_options(bytes);
+}
+
+std::string check_document(const Bytes& bytes, const std::string& schema_name, Context& context) {
+  const io::SchemaCheck check = io::check_schema(bytes, schema_name);
+  if (!check.problems.empty()) {
+    for (std::size_t i = 1; i < check.problems.size(); ++i)
+      std::fprintf(stderr, "%s: %s\n", check.problems[i].pointer.c_str(), check.problems[i].message.c_str());
+    throw Error(ErrorCode::FileMalformed, check.problems[0].pointer,
+                check.problems[0].message + "; correct it to agree with the schema \"" + check.schema + "\"");
+  }
+  check_contents(bytes, check.schema, context);
+  return check.schema;
+}
+
+std::string check_mesh(const Bytes& bytes, const std::string& path, Context& context) {
+  const ImportBodyResult result = import_body(bytes, path, {}, &context.progress);
+  return "body, " + std::to_string(result.file_vertices) + " vertices, " + std::to_string(result.file_triangles) +
+         " triangles";
+}
+
+void run_check(const std::string& path, const std::string& schema, Context& context) {
+  const Bytes bytes = read_file(path);
+  try {
+    const bool document = !schema.empty() || looks_like_json(bytes);
+    const std::string what = document ? check_document(bytes, schema, context) : check_mesh(bytes, path, context);
+    std::printf("%s: valid (%s)\n", path.c_str(), what.c_str());
+  } catch (const Error& error) {
+    if (error.subject == path) throw;
+    const bool pointer = error.subject.starts_with('/');
+    throw Error(error.code, path + (pointer ? "#" : ": ") + error.subject, error.message);
+  }
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Context& context) {
+  auto* command = app.add_subcommand("check", "validate an input or output document against its schema");
+  auto path = std::make_shared<std::string>();
+  auto schema = std::make_shared<std::string>();
+  command->add_option("FILE", *path, "JSON document, or OBJ, PLY, STL body; - is standard input")->required();
+  command->add_option("--schema", *schema, "schema to use instead of the one the document names")
+      ->check(CLI::IsMember(io::schema_names()));
+  command->callback([path, schema, &context] { run_check(*path, *schema, context); });
+}
+
+}  // namespace toile::app
