@@ -2,10 +2,12 @@
 #include "engine/stages/drape.h"
 
 #include <cmath>
-#include <numeric>
+#include <memory>
 
 #include "engine/sim/relax.h"
 #include "engine/sim/sewing.h"
+#include "engine/stages/arrange_panels.h"
+#include "engine/stages/find_skeleton.h"
 
 namespace toile {
 namespace {
@@ -25,38 +27,65 @@ void check_options(const DrapeOptions& o) {
   check(o.stop_residual > 0, "stop_residual", "positive");
 }
 
-// Nodes where the placement of their panels puts them: the mean over the vertices of a node.
-Points3 placed(const Pattern& pattern, const PatternMesh& mesh) {
-  Points3 nodes = Points3::Zero(mesh.node_count, 3);
-  Eigen::VectorXd count = Eigen::VectorXd::Zero(mesh.node_count);
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    const Panel& panel = pattern.panels[static_cast<std::size_t>(mesh.panel_of_vertex[static_cast<std::size_t>(v)])];
-    const int node = mesh.node_of_vertex[static_cast<std::size_t>(v)];
-    nodes.row(node) += (panel.rotation * Vec3(mesh.rest(v, 0), mesh.rest(v, 1), 0) + panel.translation).transpose();
-    count[node] += 1;
-  }
-  return nodes.array().colwise() / count.array();
-}
-
 class Draper {
  public:
   Draper(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const DrapeOptions& options,
          Progress* progress)
       : pattern_(pattern),
         mesh_(mesh),
+        body_(body),
         options_(options),
         progress_(progress),
-        cloth_(make_cloth(pattern, mesh)),
-        field_(body.surface.vertices, body.surface.triangles) {
+        cloth_(make_cloth(pattern, mesh)) {
     thickness_ = options.thickness + cloth_.mean_edge * cloth_.mean_edge / (8 * options.sag_radius);
+    if (body_.kind == BodyKind::Human && !body_.skeleton) body_.skeleton = find_skeleton(body_.surface).skeleton;
+    if (body_.skeleton) classify();
+    const bool armless = body_.skeleton && !result_.diagnostics.bodice;
+    const TriangleMesh surface = armless ? body_without_arms(body_) : body_.surface;
+    field_ = std::make_unique<SurfaceField>(surface.vertices, surface.triangles);
   }
 
   DrapeResult from_flat() {
     report(progress_, "sew", 0);
+    const Points3 start = body_.skeleton ? arranged() : welded(mesh_, placed_vertices(pattern_, mesh_));
+    if (!result_.diagnostics.bodice) hold_waist(start);
     DrapeEnergy energy(cloth_, nullptr, 0.0);
-    const SewingResult sewn = sew(energy, field_, thickness_, placed(pattern_, mesh_), {}, progress_);
+    energy.holds = holds_;
+    const SewingResult sewn = sew(energy, *field_, thickness_, start, {}, progress_);
     result_.diagnostics.sewing_iterations = sewn.iterations;
     return from(sewn.nodes);
+  }
+
+  DrapeResult from_start(const Points3& start) {
+    if (!result_.diagnostics.bodice) hold_waist(start);
+    return from(start);
+  }
+
+ private:
+  void classify() {
+    const SurfaceTree tree(body_.surface.vertices, body_.surface.triangles);
+    guides_ = find_body_guides(body_, tree);
+    levels_ = options_.drafted_for.value_or(guides_.levels);
+    garment_ = classify_panels(pattern_, mesh_, placed_vertices(pattern_, mesh_), guides_, levels_);
+    result_.diagnostics.bodice = garment_.bodice;
+  }
+
+  Points3 arranged() {
+    ArrangeOptions options;
+    options.lift = options_.lift;
+    options.thickness = thickness_;
+    const ArrangeResult arrangement = arrange_panels(pattern_, mesh_, garment_, guides_, levels_, *field_, options);
+    result_.diagnostics.upper_shift = arrangement.upper_shift;
+    return arrangement.nodes;
+  }
+
+  // The waist line may not sink below the mean height it has at the start.
+  void hold_waist(const Points3& start) {
+    const std::vector<int> nodes = waist_nodes(pattern_, mesh_, placed_vertices(pattern_, mesh_));
+    double height = 0;
+    for (int n : nodes) height += start(n, 1) / static_cast<double>(nodes.size());
+    for (int n : nodes) holds_.push_back({n, height, options_.contact_stiffness * cloth_.node_area[n]});
+    result_.diagnostics.hold_height = height;
   }
 
   DrapeResult from(const Points3& start) {
@@ -65,22 +94,22 @@ class Draper {
     else
       relax_from(start);
     const double residual = result_.diagnostics.residual;
-    result_.quality = measure_drape(mesh_, field_.tree(), result_.drape);
+    result_.quality = measure_drape(mesh_, field_->tree(), result_.drape);
     result_.quality.residual = residual;
     result_.quality.rest = residual < 0.3 ? Rest::Converged : Rest::NotAtRest;
     report(progress_, "drape", 1);
     return result_;
   }
 
- private:
   void relax_from(const Points3& start) {
     report(progress_, "drape", 0);
     ContactOptions contact_options;
     contact_options.thickness = thickness_;
     contact_options.stiffness = options_.contact_stiffness;
     contact_options.friction = options_.friction;
-    Contact contact(cloth_, field_, contact_options);
+    Contact contact(cloth_, *field_, contact_options);
     DrapeEnergy energy(cloth_, &contact, options_.gravity);
+    energy.holds = holds_;
     RelaxOptions relax_options;
     relax_options.iterations = options_.iterations;
     relax_options.stop_residual = options_.stop_residual;
@@ -96,11 +125,16 @@ class Draper {
 
   const Pattern& pattern_;
   const PatternMesh& mesh_;
+  Body body_;
   const DrapeOptions& options_;
   Progress* progress_;
   Cloth cloth_;
-  SurfaceField field_;
+  BodyGuides guides_;
+  BodyLevels levels_;
+  GarmentClass garment_;
+  std::unique_ptr<SurfaceField> field_;
   double thickness_ = 0;
+  std::vector<Hold> holds_;
   DrapeResult result_;
 };
 
@@ -118,7 +152,7 @@ DrapeResult drape_from(const Pattern& pattern, const PatternMesh& mesh, const Bo
   if (start.nodes.rows() != mesh.node_count || !start.nodes.allFinite())
     throw Error(ErrorCode::GarmentInvalid, "garment",
                 "the given drape does not have one finite position for every node of the sewn garment");
-  return Draper(pattern, mesh, body, options, progress).from(start.nodes);
+  return Draper(pattern, mesh, body, options, progress).from_start(start.nodes);
 }
 
 }  // namespace toile

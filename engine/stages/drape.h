@@ -8,6 +8,7 @@
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/stages/body_guides.h"
 #include "engine/stages/drape_quality.h"
 
 namespace toile {
@@ -20,10 +21,15 @@ struct DrapeOptions {
   double contact_stiffness = 2e6;  // N/m^3, > 0
   int iterations = 800;            // of the relaxation, at most, 0..100000
   double stop_residual = 0.3;      // residual at which it stops, in mean node weights, > 0
-  bool keep_drape = false;         // take a given start as the drape, without moving it (drape_from only)
+  double lift = 0.015;             // m the torso is arranged above the height at which it clears the shoulders, 0..0.1
+  std::optional<BodyLevels> drafted_for;  // levels of the body the pattern's placement belongs to; empty: this body
+  bool keep_drape = false;                // take a given start as the drape, without moving it (drape_from only)
 };
 
 struct DrapeDiagnostics {
+  double upper_shift = 0.0;  // m the torso was raised by the arrangement
+  bool bodice = false;       // the shoulders carry the garment: no waist hold, contact with the arms
+  double hold_height = 0.0;  // m the waist is kept from sinking below; 0: not held
   int sewing_iterations = 0;
   int iterations = 0;
   int evaluations = 0;

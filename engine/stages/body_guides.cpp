@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/stages/body_guides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace toile {
+namespace {
+
+constexpr double kLegStep = 0.02, kLegSlab = 0.01, kLegReach = 0.14, kSole = 0.03;  // m
+constexpr double kShoulderStep = 0.005, kShoulderLimit = 0.25;                      // m
+constexpr double kArmCut = 0.16;  // m below the shoulder joint along the arm: clear of the trunk on every body tried
+
+// Height at which a vertical line from inside the body leaves it.
+double top_above(const SurfaceTree& surface, Vec3 p) {
+  const double limit = p.y() + kShoulderLimit;
+  while (p.y() < limit && surface.winding_number(p) > 0) p.y() += kShoulderStep;
+  return p.y() - 0.5 * kShoulderStep;
+}
+
+Vec3 on_polyline_at_height(const std::vector<Vec3>& line, double y) {
+  std::size_t k = 1;
+  while (k + 1 < line.size() && line[k].y() > y) ++k;
+  const Vec3 &a = line[k - 1], &b = line[k];
+  const double drop = a.y() - b.y();
+  const double t = std::abs(drop) > 1e-9 ? std::clamp((a.y() - y) / drop, 0.0, 1.0) : 0.0;
+  Vec3 p = a + t * (b - a);
+  p.y() = y;
+  return p;
+}
+
+// Middles of the boxes of the leg's slices, every 2 cm; the joint line where a slice is empty.
+std::vector<Vec3> leg_line(const Body& body, const Skeleton& skeleton, Side side) {
+  const Skeleton::Leg& leg = skeleton.legs[side];
+  const std::vector<Vec3> joints = {leg.hip, leg.knee, leg.ankle};
+  const double sign = side == Left ? 1 : -1;
+  std::vector<Vec3> line;
+  for (double y = skeleton.crotch_y; y > kSole; y -= kLegStep) {
+    const Vec3 guess = on_polyline_at_height(joints, y);
+    Vec3 low = Vec3::Constant(1e9), high = -low;
+    for (Eigen::Index v = 0; v < body.surface.vertices.rows(); ++v) {
+      const Vec3 p = body.surface.vertices.row(v);
+      if (std::abs(p.y() - y) > kLegSlab || sign * p.x() < 0) continue;
+      if (std::hypot(p.x() - guess.x(), p.z() - guess.z()) > kLegReach) continue;
+      low = low.cwiseMin(p), high = high.cwiseMax(p);
+    }
+    Vec3 middle = low.x() <= high.x() ? Vec3(0.5 * (low + high)) : guess;
+    middle.y() = y;
+    line.push_back(middle);
+  }
+  return line;
+}
+
+std::vector<Vec3> arm_line(const Skeleton::Arm& arm) {
+  std::vector<Vec3> line = {arm.shoulder};
+  const Vec3 direction = (arm.wrist - arm.shoulder).normalized();
+  for (Eigen::Index i = arm.centre_line.rows(); i-- > 0;) {
+    const Vec3 p = arm.centre_line.row(i);
+    if ((p - line.back()).dot(direction) > 1e-3) line.push_back(p);
+  }
+  return line;
+}
+
+}  // namespace
+
+Vec3 BodyGuides::leg_at(Side side, double y) const {
+  const auto& line = leg[side];
+  return line.size() < 2 ? Vec3(0, y, 0) : on_polyline_at_height(line, y);
+}
+
+Vec3 BodyGuides::arm_at(Side side, double along) const {
+  const auto& line = arm[side];
+  const Vec3& d = arm_direction[side];
+  std::size_t k = 1;
+  while (k + 1 < line.size() && (line[k] - line[0]).dot(d) < along) ++k;
+  const double sa = (line[k - 1] - line[0]).dot(d), sb = (line[k] - line[0]).dot(d);
+  const double t = sb > sa ? std::clamp((along - sa) / (sb - sa), 0.0, 1.0) : 0.0;
+  return line[k - 1] + t * (line[k] - line[k - 1]);
+}
+
+BodyGuides find_body_guides(const Body& body, const SurfaceTree& surface) {
+  const Skeleton& skeleton = *body.skeleton;
+  BodyGuides guides;
+  guides.levels.armpit_y = skeleton.armpit_y;
+  guides.levels.waist_y = skeleton.waist_y;
+  guides.levels.crotch_y = skeleton.crotch_y;
+  for (const Side side : {Left, Right}) {
+    const Skeleton::Arm& arm = skeleton.arms[side];
+    guides.levels.shoulder_y += 0.5 * top_above(surface, arm.shoulder);
+    guides.shoulder_z += 0.5 * arm.shoulder.z();
+    guides.arm_direction[side] =
+        Vec3(arm.wrist.x() - arm.shoulder.x(), arm.wrist.y() - arm.shoulder.y(), 0).normalized();
+    guides.arm[side] = arm_line(arm);
+    guides.leg[side] = leg_line(body, skeleton, side);
+  }
+  return guides;
+}
+
+TriangleMesh body_without_arms(const Body& body) {
+  const Points3& x = body.surface.vertices;
+  const Triangles& triangles = body.surface.triangles;
+  std::vector<bool> cut(static_cast<std::size_t>(x.rows()), false);
+  std::vector<std::vector<int>> neighbours(cut.size());
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+    for (int k = 0; k < 3; ++k)
+      neighbours[static_cast<std::size_t>(triangles(f, k))].push_back(triangles(f, (k + 1) % 3));
+  for (const Side side : {Left, Right}) {
+    const Skeleton::Arm& arm = body.skeleton->arms[side];
+    const Vec3 direction = (arm.elbow - arm.shoulder).normalized();
+    const Vec3 plane = arm.shoulder + kArmCut * direction;
+    Eigen::Index tip = 0;
+    (x.rowwise() - arm.hand_end.transpose()).rowwise().squaredNorm().minCoeff(&tip);
+    std::vector<int> stack = {static_cast<int>(tip)};
+    while (!stack.empty()) {
+      const int v = stack.back();
+      stack.pop_back();
+      const Vec3 p = x.row(v);
+      if (cut[static_cast<std::size_t>(v)] || (p - plane).dot(direction) < 0) continue;
+      cut[static_cast<std::size_t>(v)] = true;
+      const auto& next = neighbours[static_cast<std::size_t>(v)];
+      stack.insert(stack.end(), next.begin(), next.end());
+    }
+  }
+  // Kept triangles, and a fan from its middle over each ring where triangles were taken away.
+  TriangleMesh result;
+  std::vector<Eigen::Vector3i> kept;
+  std::map<int, int> next_on_ring;
+  const auto gone = [&](Eigen::Index f) {
+    return cut[static_cast<std::size_t>(triangles(f, 0))] || cut[static_cast<std::size_t>(triangles(f, 1))] ||
+           cut[static_cast<std::size_t>(triangles(f, 2))];
+  };
+  std::map<std::pair<int, int>, bool> removed_edges;
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    if (!gone(f)) {
+      kept.emplace_back(triangles.row(f));
+      continue;
+    }
+    for (int k = 0; k < 3; ++k) removed_edges[{triangles(f, k), triangles(f, (k + 1) % 3)}] = true;
+  }
+  for (const auto& [edge, unused] : removed_edges)
+    if (!removed_edges.contains({edge.second, edge.first})) next_on_ring[edge.first] = edge.second;
+  std::vector<Vec3> middles;
+  while (!next_on_ring.empty()) {
+    std::vector<int> ring;
+    for (auto it = next_on_ring.begin(); it != next_on_ring.end(); it = next_on_ring.find(ring.back())) {
+      ring.push_back(it->second);
+      next_on_ring.erase(it);
+    }
+    Vec3 middle = Vec3::Zero();
+    for (int v : ring) middle += x.row(v).transpose() / static_cast<double>(ring.size());
+    const int centre = static_cast<int>(x.rows()) + static_cast<int>(middles.size());
+    middles.push_back(middle);
+    for (std::size_t i = 0; i < ring.size(); ++i) kept.emplace_back(ring[i], ring[(i + 1) % ring.size()], centre);
+  }
+  result.vertices.resize(x.rows() + static_cast<Eigen::Index>(middles.size()), 3);
+  result.vertices.topRows(x.rows()) = x;
+  for (std::size_t i = 0; i < middles.size(); ++i)
+    result.vertices.row(x.rows() + static_cast<Eigen::Index>(i)) = middles[i].transpose();
+  result.triangles.resize(static_cast<Eigen::Index>(kept.size()), 3);
+  for (std::size_t f = 0; f < kept.size(); ++f)
+    result.triangles.row(static_cast<Eigen::Index>(f)) = kept[f].transpose();
+  return result;
+}
+
+}  // namespace toile
