@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Turn an existing pattern into a target pattern by the fewest practical operations: where cloth is let in, where it is
+// taken away, and how the tailor does it.
+//
+// Two passes of the same code: the original cloth stretched onto the target tears where cloth must be inserted; the
+// target's cloth stretched onto the original tears where cloth must be removed.
+// Steps of a pass: stretch, weigh trial tears, choose by a 0/1 program, propagate, relax, repeat; undo redundant tears;
+// recut by exact polygon booleans; read the regions as operations.
+// Source: [Eggler2024, Sec. 6]; method.md section 5.  Lengths in metres.
+#pragma once
+
+#include "engine/alter/recut.h"
+#include "engine/alter/tear_pattern.h"
+#include "engine/core/ticket.h"
+
+namespace toile {
+
+enum class TearChoice {
+  Release,   // by the energy a trial tear releases: fewest tears
+  Boundary,  // by the tangential stress of the border, as the paper does
+  Greedy,    // by the energy, but each panel for itself, without the program: for comparison
+};
+
+struct AlterPatternOptions {
+  int max_tears_per_side = 1;    // Theta, cuts into one side over the whole run, 0-5
+  double seam_preference = 1.5;  // gamma, favours existing seams over new cuts, >= 1
+  double stretch_limit = 0.03;   // mu, stretch the altered cloth may keep, dimensionless, > 0
+  bool l_shapes = false;         // adjacent sides of a panel may both be released
+  TearChoice choice = TearChoice::Release;
+  bool mesh_edge_cuts = false;          // cut along mesh edges as the paper does, for comparison
+  double cut_smoothness = 0.5;          // alpha, of cuts along mesh edges, 0-1
+  double least_strip = 0.015;           // m: a cut that opens less is not made
+  double least_change = 0.004;          // m: smaller operations are marked as below the accuracy of measuring
+  double least_allowance_left = 0.005;  // m: of the seam allowance that must remain when a seam is let out
+};
+
+// One piece of cloth to insert, or to take away.
+struct AlteredRegion {
+  std::string name;        // "front_insertion_1"
+  PolygonWithHoles shape;  // true to scale: an insertion in the target panel's frame, a removal in the original's
+  double area = 0.0;       // m^2
+  int operation = -1;      // of the ticket
+};
+
+struct PanelAlteration {
+  std::string panel;
+  std::vector<Vec2> original, target;             // outlines, counter-clockwise
+  std::vector<PolygonWithHoles> kept;             // of the original cloth, after cutting and taking away
+  std::vector<std::vector<Vec2>> cut_lines;       // in the original cloth: where insertions are let in
+  std::vector<std::vector<Vec2>> kept_in_target;  // where the stretched cloth lies in the target panel
+  std::vector<AlteredRegion> insertions, removals;
+  PanelTearing insertion_pass, removal_pass;  // stress before and after, tears with their weights
+};
+
+struct AlterPatternResult {
+  std::vector<PanelAlteration> panels;  // one per panel of the pattern
+  Ticket ticket;                        // names of garment and bodies are the caller's to fill in
+  double original_area = 0.0, target_area = 0.0, inserted_area = 0.0, removed_area = 0.0;  // m^2
+  double area_imbalance = 0.0;  // |original + inserted - removed - target| / target
+  int insertion_rounds = 0, removal_rounds = 0, trials = 0, reverted = 0, dropped_regions = 0;
+  std::vector<std::string> flags;  // panels where the stretch limit was not reached, with the reason
+};
+
+// `target_rest`: #V x 2, the target pattern's flat positions of the mesh's vertices. Throws AlterationFailed,
+// Cancelled.
+AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
+                                 const AlterPatternOptions& options = {}, Progress* progress = nullptr);
+
+}  // namespace toile

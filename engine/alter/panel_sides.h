@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The sides of a panel: runs of edges between corners, and who is sewn to whom along them.
+#pragma once
+
+#include "engine/core/pattern.h"
+#include "engine/core/pattern_mesh.h"
+
+namespace toile {
+
+// Edges that turn less than this into each other are one side [method, Sec. 5].
+inline constexpr double kCornerTurn = 30.0;  // degrees
+
+struct PanelSide {
+  std::vector<int> edges;     // of the panel, in counter-clockwise order
+  std::vector<int> vertices;  // pattern vertices from corner to corner, counter-clockwise
+  bool locked = false;        // holds a locked edge or a zip: neither opened nor cut
+  bool sewn = false;          // at least one of its edges is
+};
+
+// Counter-clockwise round the panel; side i ends where side i + 1 begins. A panel without corners has one side.
+std::vector<PanelSide> find_panel_sides(const Pattern& pattern, const PatternMesh& mesh, int panel);
+
+// The same pattern vertex seen from the other ply.
+struct SeamPartner {
+  int panel = -1;
+  int vertex = -1;
+};
+// Per pattern vertex: what it is sewn to (several where seams meet in a point).
+std::vector<std::vector<SeamPartner>> find_seam_partners(const PatternMesh& mesh);
+
+}  // namespace toile

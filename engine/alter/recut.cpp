@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/alter/recut.h"
+
+#include <algorithm>
+
+namespace toile {
+namespace {
+
+constexpr double kSamePoint = 1e-6;  // m, along a side: cloth and outline share one point there
+
+// Points of every wanted side, shared by the outline and by the cloth that hangs on it: equal places, equal numbers.
+class SharedPoints {
+ public:
+  explicit SharedPoints(const Sheet& sheet) : sheet_(sheet) {
+    for (const SideCurve& side : sheet.wanted_sides) at_.push_back(side.at());
+    for (const SheetVertex& vertex : sheet.vertices)
+      for (const SheetAnchor& anchor : vertex.anchors)
+        if (anchor.side >= 0 && anchor.attached) add(anchor.side, foot(vertex, anchor.side));
+  }
+
+  // Arc length of a vertex's place on the wanted side, as shared.
+  double place(const SheetVertex& vertex, int side) const {
+    const auto& at = at_[static_cast<std::size_t>(side)];
+    const double wanted = foot(vertex, side);
+    const auto above = std::lower_bound(at.begin(), at.end(), wanted - kSamePoint);
+    return above == at.end() ? at.back() : *above;
+  }
+  Vec2 point(int side, double at) const { return sheet_.wanted_sides[static_cast<std::size_t>(side)].point(at); }
+  const std::vector<double>& of_side(int side) const { return at_[static_cast<std::size_t>(side)]; }
+
+ private:
+  double foot(const SheetVertex& vertex, int side) const {
+    const SideCurve& curve = sheet_.wanted_sides[static_cast<std::size_t>(side)];
+    // A corner that hangs on both its sides is the wanted corner.
+    const int count = static_cast<int>(sheet_.sides.size());
+    const auto hangs = [&](int other) {
+      const SheetAnchor* anchor = vertex.anchor(other);
+      return anchor && anchor->attached;
+    };
+    if (count > 1 && hangs((side + count - 1) % count) && vertex.anchor(side)->at == 0.0) return 0.0;
+    if (count > 1 && hangs((side + 1) % count) && vertex.anchor(side)->at > 0.0 &&
+        vertex.anchor((side + 1) % count)->at == 0.0)
+      return curve.length();
+    return std::clamp(curve.closest(vertex.now).at, 0.0, curve.length());
+  }
+  void add(int side, double place) {
+    auto& at = at_[static_cast<std::size_t>(side)];
+    const auto above = std::lower_bound(at.begin(), at.end(), place - kSamePoint);
+    if (above == at.end() || *above > place + kSamePoint) at.insert(above, place);
+  }
+
+  const Sheet& sheet_;
+  std::vector<std::vector<double>> at_;
+};
+
+std::vector<Vec2> wanted_outline(const Sheet& sheet, const SharedPoints& shared) {
+  std::vector<Vec2> outline;
+  for (int s = 0; s < static_cast<int>(sheet.sides.size()); ++s) {
+    const std::vector<double>& at = shared.of_side(s);
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) outline.push_back(shared.point(s, at[i]));
+  }
+  return outline;
+}
+
+bool hangs_on(const SheetVertex& vertex, int side) {
+  const SheetAnchor* anchor = vertex.anchor(side);
+  return anchor && anchor->attached;
+}
+
+Vec2 place_of(const SheetVertex& vertex, const SharedPoints& shared) {
+  for (const SheetAnchor& anchor : vertex.anchors)
+    if (anchor.side >= 0 && anchor.attached) return shared.point(anchor.side, shared.place(vertex, anchor.side));
+  return vertex.now;
+}
+
+// Border of the cloth where it is now, following the wanted side wherever it hangs on it.
+std::vector<Vec2> kept_outline(const Sheet& sheet, const std::vector<BorderEdge>& loop, const SharedPoints& shared) {
+  std::vector<Vec2> outline;
+  for (const BorderEdge& edge : loop) {
+    const SheetVertex &from = sheet.vertices[static_cast<std::size_t>(edge.from)],
+                      &to = sheet.vertices[static_cast<std::size_t>(edge.to)];
+    outline.push_back(place_of(from, shared));
+    if (edge.side < 0 || !hangs_on(from, edge.side) || !hangs_on(to, edge.side)) continue;
+    const double begin = shared.place(from, edge.side), end = shared.place(to, edge.side);
+    for (const double at : shared.of_side(edge.side))
+      if (at > begin + kSamePoint && at < end - kSamePoint) outline.push_back(shared.point(edge.side, at));
+  }
+  return outline;
+}
+
+double perimeter(const std::vector<Vec2>& loop) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i) sum += (loop[(i + 1) % loop.size()] - loop[i]).norm();
+  return sum;
+}
+
+bool worth_sewing(const PolygonWithHoles& opening, const RecutOptions& options) {
+  const double size = area(opening);
+  return size >= options.least_area && 2.0 * size / perimeter(opening.outline) >= options.least_width;
+}
+
+}  // namespace
+
+RecutPanel recut(const Sheet& sheet, const RecutOptions& options) {
+  const SharedPoints shared(sheet);
+  RecutPanel result;
+  result.wanted = wanted_outline(sheet, shared);
+  result.wanted_area = signed_area(result.wanted);
+  for (const auto& loop : border_loops(sheet)) result.kept.push_back(kept_outline(sheet, loop, shared));
+  const bool whole = sheet.cuts.empty() && std::all_of(sheet.vertices.begin(), sheet.vertices.end(), [](const auto& v) {
+                       return std::all_of(v.anchors.begin(), v.anchors.end(),
+                                          [](const SheetAnchor& a) { return a.side < 0 || a.attached; });
+                     });
+  if (whole) return result;
+  for (PolygonWithHoles& opening : polygon_difference({result.wanted}, result.kept)) {
+    if (!worth_sewing(opening, options)) {
+      ++result.dropped;
+      continue;
+    }
+    result.opening_area += area(opening);
+    result.openings.push_back(std::move(opening));
+  }
+  return result;
+}
+
+}  // namespace toile

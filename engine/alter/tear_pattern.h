@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One pass of the alteration: stretch every panel's cloth onto the wanted outline and tear it, round by round, until
+// what it keeps is within the allowed stretch. Run from the original onto the target it says where to insert; with the
+// roles swapped, where to take away.   Source: [Eggler2024, Sec. 6, Algorithm 1].  Lengths in metres.
+#pragma once
+
+#include "engine/alter/choose_tears.h"
+
+namespace toile {
+
+struct TearPatternOptions {
+  CandidateOptions candidates;
+  ChooseTearsOptions choice;
+  int max_rounds = 12;
+};
+
+// One tear that was made, with why.
+struct MadeTear {
+  Tear tear;
+  int round = 0;
+  double weight = 0.0;       // in the program, before the preference for seams
+  double release = 0.0;      // share of the panel's first energy
+  double largest_gap = 0.0;  // m, when it was made
+  bool for_partner = false;  // releases little here: made because the other ply opens there
+};
+
+struct PanelTearing {
+  SheetStress before, after;
+  std::vector<MadeTear> tears;
+  bool done = false;   // what is left is within the stretch limit
+  std::string reason;  // why not, or empty
+};
+
+struct TornPattern {
+  std::vector<Sheet> sheets;  // one per panel, in the order of the pattern
+  std::vector<PanelTearing> panels;
+  int rounds = 0;
+  int trials = 0;    // candidates that were carried out on a copy
+  int reverted = 0;  // tears found redundant and undone
+};
+
+TornPattern tear_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& cloth, const Points2& wanted,
+                         const TearPatternOptions& options, Progress* progress = nullptr);
+
+}  // namespace toile
