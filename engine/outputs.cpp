@@ -97,9 +97,12 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
     return render_views(&r.target_body.surface, &mesh, &r.before.drape, &r.fit_before, views_of("before"));
   });
 
+  const std::vector<BodyZone> zones = body_zones(pattern, mesh, r.reference.drape.drape, r.reference.body);
+  const auto fit = [&](const FittingMap& map) {
+    return fit_record(pattern, compare_fits(mesh, r.reference.fit, map, {}, zones));
+  };
   Record fits;
-  fits.add("before", fit_record(pattern, compare_fits(mesh, r.reference.fit, r.fit_before)));
-  fits.add("ideal", fit_record(pattern, compare_fits(mesh, r.reference.fit, r.derived.fit)));
+  fits.add("before", fit(r.fit_before)).add("ideal", fit(r.derived.fit));
   Record stages;
   stages.add("reference_drape", drape_record(r.reference.drape))
       .add("register_bodies", r.registration.diagnostics)

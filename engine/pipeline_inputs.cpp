@@ -5,6 +5,7 @@
 #include "engine/stages/find_skeleton.h"
 #include "engine/stages/import_pattern.h"
 #include "engine/stages/make_form.h"
+#include "engine/stages/measure_body.h"
 
 namespace toile {
 namespace {
@@ -35,7 +36,12 @@ Pattern read_garment(const GarmentInput& garment) {
 Body read_body(const BodyInput& body) {
   if (body.name.starts_with(kBuiltin)) return make_builtin_form(std::string_view(body.name).substr(kBuiltin.size()));
   Body imported = import_body(body.bytes, body.name, body.import).body;
-  if (imported.kind == BodyKind::Human) imported.skeleton = find_skeleton(imported.surface).skeleton;
+  if (imported.kind == BodyKind::Human) {
+    imported.skeleton = find_skeleton(imported.surface).skeleton;
+    MeasureBodyResult measured = measure_body(imported.surface, *imported.skeleton);
+    imported.landmarks = std::move(measured.landmarks);
+    imported.measurements = std::move(measured.measurements);
+  }
   return imported;
 }
 

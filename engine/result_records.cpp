@@ -130,9 +130,17 @@ Record fit_record(const Pattern& pattern, const FitComparison& comparison) {
     panel.add("panel", pattern.panels[p].name).add("difference", difference_record(comparison.panels[p]));
     panels.push_back(std::move(panel));
   }
+  std::vector<Record> zones;
+  for (std::size_t z = 0; z < comparison.zones.size(); ++z) {
+    if (comparison.zones[z].area <= 0.0) continue;
+    Record zone;
+    zone.add("zone", std::string(zone_name(static_cast<BodyZone>(z))));
+    zones.push_back(std::move(zone.add("difference", difference_record(comparison.zones[z]))));
+  }
   Record record;
   record.add("whole", difference_record(comparison.whole))
       .add("panels", std::move(panels))
+      .add("zones", std::move(zones))
       .add("degenerate_triangles", comparison.degenerate_triangles);
   return record;
 }

@@ -39,11 +39,11 @@ struct Sums {
 }  // namespace
 
 FitComparison compare_fits(const PatternMesh& mesh, const FittingMap& reference, const FittingMap& fit,
-                           const CompareFitsOptions& options) {
+                           const CompareFitsOptions& options, const std::vector<BodyZone>& zones) {
   assert(reference.triangle_count() == mesh.triangle_count() && fit.triangle_count() == mesh.triangle_count());
   FitComparison result;
   Sums whole;
-  std::vector<Sums> panels(mesh.panels.size());
+  std::vector<Sums> panels(mesh.panels.size()), by_zone(zones.empty() ? 0 : kBodyZoneCount);
   for (int f = 0; f < mesh.triangle_count(); ++f) {
     const auto face = static_cast<std::size_t>(f);
     if (reference.degenerate[face] || fit.degenerate[face]) {
@@ -55,9 +55,10 @@ FitComparison compare_fits(const PatternMesh& mesh, const FittingMap& reference,
     const double shear = fit.shear[f] - reference.shear[f];
     const double larger = std::max(std::abs(weft), std::abs(warp));
     const bool beyond = larger > options.limit;
-    whole.add(reference.rest_area[f], weft, warp, shear, beyond);
-    panels[static_cast<std::size_t>(mesh.panel_of_triangle[face])].add(reference.rest_area[f], weft, warp, shear,
-                                                                       beyond);
+    const auto count = [&](Sums& sums) { sums.add(reference.rest_area[f], weft, warp, shear, beyond); };
+    count(whole);
+    count(panels[static_cast<std::size_t>(mesh.panel_of_triangle[face])]);
+    if (!zones.empty()) count(by_zone[static_cast<std::size_t>(zones[face])]);
     if (larger > result.worst_difference) {
       result.worst_difference = larger;
       result.worst_triangle = f;
@@ -65,6 +66,7 @@ FitComparison compare_fits(const PatternMesh& mesh, const FittingMap& reference,
   }
   result.whole = whole.means();
   for (const Sums& sums : panels) result.panels.push_back(sums.means());
+  for (const Sums& sums : by_zone) result.zones.push_back(sums.means());
   return result;
 }
 

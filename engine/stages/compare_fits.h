@@ -7,6 +7,7 @@
 
 #include "engine/core/fitting_map.h"
 #include "engine/core/pattern_mesh.h"
+#include "engine/stages/body_zones.h"
 
 namespace toile {
 
@@ -22,6 +23,7 @@ struct FitDifference {
 struct FitComparison {
   FitDifference whole;
   std::vector<FitDifference> panels;  // one per panel of the mesh
+  std::vector<FitDifference> zones;   // one per BodyZone, without area where the garment covers nothing
   int degenerate_triangles = 0;
   int worst_triangle = -1;  // of the largest difference in weft or warp
   double worst_difference = 0.0;
@@ -31,9 +33,9 @@ struct CompareFitsOptions {
   double limit = 0.03;  // dimensionless, > 0: differences beyond it count in share_beyond
 };
 
-// Requires both maps to be of `mesh`'s triangles.
+// Requires both maps to be of `mesh`'s triangles. `zones`: the body zone of every triangle (body_zones), or empty.
 FitComparison compare_fits(const PatternMesh& mesh, const FittingMap& reference, const FittingMap& fit,
-                           const CompareFitsOptions& options = {});
+                           const CompareFitsOptions& options = {}, const std::vector<BodyZone>& zones = {});
 
 struct PositionDifference {
   double rms = 0.0, p95 = 0.0, largest = 0.0;  // m, distance between equal garment nodes
