@@ -41,7 +41,8 @@ void MeshBuilder::refuse_triangles(std::int64_t count, const std::string& place)
 }
 
 void MeshBuilder::note_index(std::int64_t index, const std::string& place) {
-  if (index < 0 || index >= limits_.vertices)
+  if (index < 0) fail(place, "a face names a vertex of negative number; export the file again");
+  if (index >= limits_.vertices)
     fail(place, "a face names vertex " + std::to_string(index + 1) + ", which cannot exist; export the file again");
   largest_index_ = index;
   place_of_largest_ = place;

@@ -45,7 +45,8 @@ class CornerWelder {
 
 void read_binary(std::span<const std::uint8_t> bytes, const std::string& name, MeshBuilder& builder) {
   ByteReader reader(bytes, kHeaderBytes - 4, false, name);
-  const auto place = [&] { return reader.place(); };
+  std::size_t start = 0;  // of the corner or triangle at hand
+  const auto place = [&] { return "byte " + std::to_string(start); };
   const std::int64_t count = reader.read<std::uint32_t>();
   builder.expect_triangles(count, "byte 80");
   if (static_cast<std::uint64_t>(count) > reader.remaining() / kTriangleBytes)
@@ -56,6 +57,7 @@ void read_binary(std::span<const std::uint8_t> bytes, const std::string& name, M
   for (std::int64_t i = 0; i < count; ++i) {
     reader.skip(12);
     for (int k = 0; k < 3; ++k) {
+      start = reader.offset();
       const float x = reader.read<float>(), y = reader.read<float>(), z = reader.read<float>();
       welder.add_corner(x, y, z, place);
     }

@@ -21,6 +21,14 @@ std::string shown(std::string_view text) {
   return text.size() > 24 ? out + "..." : out;
 }
 
+// Tells an underflow from an overflow, which from_chars reports alike: by the exponent, or a leading "0." or ".".
+bool is_below_one(std::string_view number) {
+  if (number.starts_with('-')) number.remove_prefix(1);
+  const std::size_t exponent = number.find_first_of("eE");
+  if (exponent != std::string_view::npos) return number.substr(exponent + 1).starts_with('-');
+  return number.starts_with("0.") || number.starts_with('.');
+}
+
 }  // namespace
 
 TextScanner::TextScanner(std::span<const std::uint8_t> bytes, std::string subject, LineJoin join)
@@ -81,8 +89,7 @@ double TextScanner::to_number(std::string_view text, std::string_view what) cons
   double value = 0;
   const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  // An underflow is a zero for our purpose; from_chars reports it like an overflow.
-  const bool tiny = error == std::errc::result_out_of_range && std::abs(value) < 1;
+  const bool tiny = error == std::errc::result_out_of_range && is_below_one(digits);  // a zero for our purpose
   if ((error != std::errc() && !tiny) || end != digits.data() + digits.size() || !std::isfinite(value))
     fail(std::string(what) + " '" + shown(text) + "' is not a finite number");
   return value;
