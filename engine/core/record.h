@@ -16,7 +16,7 @@ struct RecordField;
 class Record {
  public:
   using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, Record, std::vector<Record>,
-                             std::vector<double>, std::vector<std::string>>;
+                             std::vector<double>, std::vector<std::string>, std::vector<std::vector<double>>>;
 
   Record();
   ~Record();

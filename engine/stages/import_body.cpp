@@ -10,6 +10,16 @@ namespace toile {
 
 namespace {
 
+// Stages speak of "body"; here it is known which file that was.
+NormaliseBodyResult normalise_named(const TriangleMesh& mesh, const std::string& name,
+                                    const ImportBodyOptions& options) {
+  try {
+    return normalise_body(mesh, {.kind = options.kind, .unit = options.unit, .up = options.up});
+  } catch (const Error& error) {
+    throw Error(error.code, name, error.message);
+  }
+}
+
 void require_closed(const TriangleMesh& mesh, const std::string& name) {
   const SurfaceDefects defects = find_defects(mesh.vertex_count(), mesh.triangles);
   if (mesh.triangle_count() > 0 && defects.none()) return;
@@ -58,7 +68,7 @@ ImportBodyResult import_body(TriangleMesh in_file, const std::string& name, cons
   result.repairs.turned_triangles = orient_outward(in_file);
   report(progress, "import_body", 0.4);
 
-  result.normalisation = normalise_body(in_file, {.kind = options.kind, .unit = options.unit, .up = options.up});
+  result.normalisation = normalise_named(in_file, name, options);
   report(progress, "import_body", 0.7);
 
   Body& body = result.body;

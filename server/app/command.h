@@ -24,6 +24,7 @@ struct Context {
 void add_alter_command(CLI::App& app, Context& context);
 void add_drape_command(CLI::App& app, Context& context);
 void add_check_command(CLI::App& app, Context& context);
+void add_body_command(CLI::App& app, Context& context);
 void add_version_command(CLI::App& app, Context& context);
 
 }  // namespace toile::app

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bodies as the command line names them.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/stages/import_body.h"
+
+namespace toile::app {
+
+// How one body is to be read; `add_body_options` binds it to --unit, --up and --kind.
+struct BodySource {
+  std::string unit = "auto";   // auto, m, cm, mm, in
+  std::string up = "auto";     // auto, +x, -x, +y, -y, +z, -z
+  std::string kind = "human";  // human, form
+  std::string landmarks;       // file of given landmarks, or empty
+};
+void add_body_options(CLI::App& app, BodySource& source);
+
+// A file (OBJ, PLY, STL; "-" is standard input) or `builtin:NAME`, with a skeleton, landmarks and measurements when it
+// is a person. Throws what import_body and the measuring stages throw.
+ImportBodyResult load_body(const std::string& file, const BodySource& source, Progress* progress);
+
+}  // namespace toile::app
