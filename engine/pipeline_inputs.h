@@ -18,6 +18,7 @@ struct BodyInput {
   std::string name;  // of the file, or "builtin:NAME" with no bytes
   Bytes bytes;       // OBJ, PLY or STL
   ImportBodyOptions import = {};
+  Bytes landmarks = {};  // a landmarks document (body_json.h), or empty
 };
 
 // Key of an input: the same bytes read the same way have the same key, whatever their name.
@@ -27,5 +28,7 @@ std::string input_key(const BodyInput& body);
 // Throw the importers' errors; their subject names the input.
 Pattern read_garment(const GarmentInput& garment);
 Body read_body(const BodyInput& body);
+// The same with what was mended; a person has a skeleton, landmarks and measurements, a form has none.
+ImportBodyResult take_in_body(const BodyInput& body, Progress* progress = nullptr);
 
 }  // namespace toile

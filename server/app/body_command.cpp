@@ -35,7 +35,7 @@ Record body_document(const ImportBodyResult& result) {
 }
 
 void run(const BodyArguments& arguments, Context& context) {
-  const ImportBodyResult result = load_body(arguments.file, arguments.source, &context.progress);
+  const ImportBodyResult result = take_in_body(read_body_input(arguments.file, arguments.source), &context.progress);
   if (!arguments.out.empty()) write_file(arguments.out, write_obj(result.body.surface));
   const Bytes document = write_json(body_document(result));
   std::fwrite(document.data(), 1, document.size(), stdout);

@@ -3,9 +3,6 @@
 
 #include <filesystem>
 
-#include "engine/io/body_json.h"
-#include "engine/stages/find_skeleton.h"
-#include "engine/stages/make_form.h"
 #include "server/app/files.h"
 
 namespace toile::app {
@@ -39,22 +36,13 @@ void add_body_options(CLI::App& app, BodySource& source) {
   app.add_option("--landmarks", source.landmarks, "JSON of known landmarks, in the file's frame");
 }
 
-ImportBodyResult load_body(const std::string& file, const BodySource& source, Progress* progress) {
-  if (file.starts_with(kBuiltin)) {
-    ImportBodyResult result;
-    result.body = make_builtin_form(file.substr(kBuiltin.size()));
-    result.file_vertices = result.body.surface.vertex_count();
-    result.file_triangles = result.body.surface.triangle_count();
-    return result;
-  }
-  ImportBodyResult result = import_body(read_file(file), file, import_options(source), progress);
-  Body& body = result.body;
-  body.name = std::filesystem::path(file).stem().string();
-  if (!source.landmarks.empty())
-    body.landmarks =
-        normalised_landmarks(read_landmarks(read_file(source.landmarks), source.landmarks), body.normalised_from_file);
-  if (body.kind == BodyKind::Human) body.skeleton = find_skeleton(body.surface).skeleton;
-  return result;
+BodyInput read_body_input(const std::string& file, const BodySource& source) {
+  BodyInput input;
+  input.name = file.starts_with(kBuiltin) ? file : std::filesystem::path(file).filename().string();
+  if (!file.starts_with(kBuiltin)) input.bytes = read_file(file);
+  if (!source.landmarks.empty()) input.landmarks = read_file(source.landmarks);
+  input.import = import_options(source);
+  return input;
 }
 
 }  // namespace toile::app

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/stages/import_body.h"
+#include "engine/pipeline_inputs.h"
 
 namespace toile::app {
 
@@ -19,8 +19,7 @@ struct BodySource {
 };
 void add_body_options(CLI::App& app, BodySource& source);
 
-// A file (OBJ, PLY, STL; "-" is standard input) or `builtin:NAME`, with a skeleton, landmarks and measurements when it
-// is a person. Throws what import_body and the measuring stages throw.
-ImportBodyResult load_body(const std::string& file, const BodySource& source, Progress* progress);
+// A file (OBJ, PLY, STL; "-" is standard input) or `builtin:NAME`. Throws FileUnreadable, LimitExceeded.
+BodyInput read_body_input(const std::string& file, const BodySource& source);
 
 }  // namespace toile::app
