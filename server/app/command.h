@@ -22,9 +22,9 @@ struct Context {
 
 // Adds the subcommand's options to `app` and sets what it runs as its callback.
 void add_alter_command(CLI::App& app, Context& context);
-void add_drape_command(CLI::App& app, Context& context);
-void add_check_command(CLI::App& app, Context& context);
 void add_body_command(CLI::App& app, Context& context);
+void add_check_command(CLI::App& app, Context& context);
+void add_drape_command(CLI::App& app, Context& context);
 void add_version_command(CLI::App& app, Context& context);
 
 }  // namespace toile::app

@@ -70,9 +70,9 @@ int main(int argc, char** argv) {
   };
 
   app::add_alter_command(app, context);
-  app::add_drape_command(app, context);
-  app::add_check_command(app, context);
   app::add_body_command(app, context);
+  app::add_check_command(app, context);
+  app::add_drape_command(app, context);
   app::add_version_command(app, context);
 
   try {

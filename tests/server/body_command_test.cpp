@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/io/mesh_file.h"
+#include "engine/io/schema_check.h"
 #include "tests/support/run_process.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/shared_data.h"
@@ -38,7 +39,9 @@ TEST(BodyCommand, PrintsOneDocumentAndWritesTheNormalisedBody) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   const Json document = Json::parse(result.out);
-  EXPECT_EQ(document["schema"], "toile/body/1");
+  const io::SchemaCheck check = io::check_schema(Bytes(result.out.begin(), result.out.end()));
+  EXPECT_EQ(check.schema, "body");
+  for (const io::SchemaProblem& problem : check.problems) ADD_FAILURE() << problem.pointer << ": " << problem.message;
   EXPECT_EQ(document["normalisation"]["unit"], "mm");
   EXPECT_EQ(document["normalisation"]["up"], "+z");
   EXPECT_GE(document["repairs"]["closed_holes"], 7);
