@@ -191,20 +191,22 @@ double curve_length(const Curve& curve) {
   }
 }
 
+std::vector<double> curve_parameters_at(const Curve& curve, const std::vector<double>& fractions) {
+  if (!is_bezier(curve.shape.kind)) return fractions;
+  const std::vector<double> table = length_table(curve);
+  std::vector<double> parameters;
+  for (const double fraction : fractions)
+    parameters.push_back(fraction <= 0.0   ? 0.0
+                         : fraction >= 1.0 ? 1.0
+                                           : parameter_at_length(curve, table, fraction * table.back()));
+  return parameters;
+}
+
 std::vector<Vec2> curve_points_at(const Curve& curve, const std::vector<double>& fractions) {
   std::vector<Vec2> points;
   points.reserve(fractions.size());
-  const bool bezier = is_bezier(curve.shape.kind);
-  const std::vector<double> table = bezier ? length_table(curve) : std::vector<double>{};
-  for (const double fraction : fractions) {
-    if (fraction <= 0.0)
-      points.push_back(curve.start);
-    else if (fraction >= 1.0)
-      points.push_back(curve.end);
-    else
-      points.push_back(
-          curve_point(curve, bezier ? parameter_at_length(curve, table, fraction * table.back()) : fraction));
-  }
+  for (const double t : curve_parameters_at(curve, fractions))
+    points.push_back(t <= 0.0 ? curve.start : t >= 1.0 ? curve.end : curve_point(curve, t));
   return points;
 }
 

@@ -38,6 +38,9 @@ std::vector<Vec2> sample_curve(const Curve& curve, int segments);
 // Points at the given fractions of the arc length, each in [0, 1], ascending.
 std::vector<Vec2> curve_points_at(const Curve& curve, const std::vector<double>& fractions);
 
+// The parameters t of the points at these fractions of the arc length.
+std::vector<double> curve_parameters_at(const Curve& curve, const std::vector<double>& fractions);
+
 // Points such that the chain of chords stays within `tolerance` of the curve; both ends included.
 std::vector<Vec2> flatten_curve(const Curve& curve, double tolerance);
 

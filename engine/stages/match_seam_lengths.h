@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The least change of corners and curves after which sewn sides have wanted length ratios again.
+//
+// Unknowns: corners, control points and radii of all panels; constraint per seam: length_a - ratio * length_b = 0.
+// Newton on the constraints with the step of least norm. Lengths in metres.
+#pragma once
+
+#include <vector>
+
+#include "engine/core/pattern.h"
+
+namespace toile {
+
+// `ratios[s]` is the wanted length of side a over side b of seam s. Locked panels and edges are not moved. Returns the
+// largest remaining mismatch |length_a - ratio * length_b|.
+double match_seam_lengths(Pattern& pattern, const std::vector<double>& ratios);
+
+}  // namespace toile
