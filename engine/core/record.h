@@ -16,7 +16,8 @@ struct RecordField;
 class Record {
  public:
   using Value = std::variant<std::monostate, bool, std::int64_t, double, std::string, Record, std::vector<Record>,
-                             std::vector<double>, std::vector<std::string>, std::vector<std::vector<double>>>;
+                             std::vector<double>, std::vector<std::string>, std::vector<std::vector<double>>,
+                             std::vector<std::int64_t>>;
 
   Record();
   ~Record();

@@ -38,7 +38,7 @@ ol.work>li.adds{border-left-color:var(--blue)}ol.work>li.takes{border-left-color
 .tag.warn{background:#fde7c8}.profile{width:100%;max-width:30rem;height:auto}
 @media(max-width:34rem){dl{grid-template-columns:1fr}dd{margin-bottom:.3rem}body{padding:.8rem .7rem 2rem}}
 @media print{body{max-width:none;padding:0;font-size:10pt}.wide{border:0;overflow:visible}.wide>*{min-width:0}
- h2{break-after:avoid}figure,table,ol.work>li{break-inside:avoid}details>*{display:block}}
+ h2{break-after:avoid}figure,table,ol.work>li{break-inside:avoid}}
 )";
 
 std::string spaced(std::string_view name) {
@@ -62,6 +62,16 @@ struct ValueText {
   std::string operator()(const std::vector<double>& values) const {
     std::string text;
     for (const double value : values) append(text, {text.empty() ? "" : ", ", number(value, 4)});
+    return text;
+  }
+  std::string operator()(const std::vector<std::vector<double>>& rows) const {
+    std::string text;
+    for (const auto& row : rows) append(text, {text.empty() ? "" : "; ", (*this)(row)});
+    return text;
+  }
+  std::string operator()(const std::vector<std::int64_t>& values) const {
+    std::string text;
+    for (const std::int64_t value : values) append(text, {text.empty() ? "" : ", ", std::to_string(value)});
     return text;
   }
   std::string operator()(const std::vector<std::string>& values) const {

@@ -10,18 +10,18 @@ namespace {
 
 constexpr double kHeader = 120.0;  // mm above the pieces for title and test square
 constexpr const char* kStyle =
-    "path{fill:none;stroke-linejoin:round;stroke-linecap:round}"
-    ".cut{stroke:#1c1c20;stroke-width:.6}"
-    ".stitch{stroke:#1c1c20;stroke-width:.35;stroke-dasharray:4 2}"
-    ".fold{stroke:#1c1c20;stroke-width:.35;stroke-dasharray:8 2 1 2}"
-    ".internal{stroke:#6b6b75;stroke-width:.35}"
-    ".grainline{stroke:#1c1c20;stroke-width:.35}"
-    ".notch{stroke:#1c1c20;stroke-width:.5}"
-    ".original{stroke:#8a8a94;stroke-width:.5}"
-    ".insertion{stroke:#2f5bd8;stroke-width:.5;fill:#4670eb;fill-opacity:.22}"
-    ".removal{stroke:#c8281e;stroke-width:.5;fill:#e13c32;fill-opacity:.22}"
-    ".label{font-family:Helvetica,Arial,sans-serif;fill:#1c1c20;text-anchor:middle;stroke:none}"
-    ".added .cut{stroke:#2f5bd8}";
+    ".drawing path{fill:none;stroke-linejoin:round;stroke-linecap:round}"
+    ".drawing .cut{stroke:#1c1c20;stroke-width:.6}"
+    ".drawing .stitch{stroke:#1c1c20;stroke-width:.35;stroke-dasharray:4 2}"
+    ".drawing .fold{stroke:#1c1c20;stroke-width:.35;stroke-dasharray:8 2 1 2}"
+    ".drawing .internal{stroke:#6b6b75;stroke-width:.35}"
+    ".drawing .grainline{stroke:#1c1c20;stroke-width:.35}"
+    ".drawing .notch{stroke:#1c1c20;stroke-width:.5}"
+    ".drawing .original{stroke:#8a8a94;stroke-width:.5}"
+    ".drawing .insertion{stroke:#2f5bd8;stroke-width:.5;fill:#4670eb;fill-opacity:.22}"
+    ".drawing .removal{stroke:#c8281e;stroke-width:.5;fill:#e13c32;fill-opacity:.22}"
+    ".drawing .label{font-family:Helvetica,Arial,sans-serif;fill:#1c1c20;text-anchor:middle;stroke:none}"
+    ".drawing .added .cut{stroke:#2f5bd8}";
 
 class SvgWriter {
  public:
@@ -54,7 +54,10 @@ class SvgWriter {
   void head() {
     const std::string width = number(layout_.size.x(), 3), height = number(layout_.size.y(), 3);
     if (!options_.inlined) out_ += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
-    out_ += "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" ";
+    // Its own class keeps the styles inside when the drawing stands in a page.
+    out_ +=
+        "<svg class=\"drawing\" xmlns=\"http://www.w3.org/2000/svg\" "
+        "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" ";
     if (!options_.inlined) append(out_, {"width=\"", width, "mm\" height=\"", height, "mm\" "});
     append(out_, {"viewBox=\"0 0 ", width, " ", height, "\">\n"});
     append(out_, {"<title>", escape_xml(drawing_.title), "</title>\n<style>", kStyle, "</style>\n"});

@@ -29,7 +29,7 @@ std::string mm_text(double metres) {
 }
 
 Record side_record(const TicketSide& side) {
-  std::vector<double> edges(side.edges.begin(), side.edges.end());
+  std::vector<std::int64_t> edges(side.edges.begin(), side.edges.end());
   Record record;
   record.add("panel", side.panel).add("edges", std::move(edges)).add("words", side.words);
   return record;
@@ -125,9 +125,10 @@ std::string facts(const TicketOperation& operation) {
   append(amount, {" per ply, ", mm_text(operation.total), " in all"});
   add_fact(list, "amount", amount);
   if (operation.fabric != FabricNeed::None) {
+    const bool enough = operation.allowance.left >= 0;
     std::string text = mm_text(operation.allowance.available);
-    append(text, {" available, ", mm_text(operation.allowance.needed), " needed, ", mm_text(operation.allowance.left),
-                  " left"});
+    append(text, {" available, ", mm_text(operation.allowance.needed), " needed, ",
+                  mm_text(std::abs(operation.allowance.left)), enough ? " left" : " short"});
     add_fact(list, "seam allowance", text);
   }
   if (operation.removed_area > 0) {

@@ -46,23 +46,72 @@ Layout lay_out(const SheetOptions& options) {
   return layout;
 }
 
-void draw_mark(Canvas& canvas, const Layout& layout, const Mark& mark) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < layout.cameras.size(); ++i)
-    if (mark.normal.dot(layout.cameras[i].towards) > mark.normal.dot(layout.cameras[best].towards) + 1e-9) best = i;
-  const Camera& camera = layout.cameras[best];
+constexpr double kMarkRadius = 11.0;  // pixels
+
+bool in_range(const Surface& surface, int f) {
+  return surface.triangles.row(f).minCoeff() >= 0 && surface.triangles.row(f).maxCoeff() < surface.vertices.rows();
+}
+
+// Is something more than a fingertip in front of the point?
+bool hidden(const std::vector<Surface>& surfaces, const Camera& camera, const Vec3& point) {
+  constexpr double kFingertip = 0.01;  // m
+  const Vec3 at = camera.project(point);
+  const auto covers_nearer = [&](const std::array<Vec3, 3>& p) {
+    const auto side = [&](const Vec3& a, const Vec3& b) {
+      return (b.x() - a.x()) * (at.y() - a.y()) - (b.y() - a.y()) * (at.x() - a.x());
+    };
+    const double u = side(p[1], p[2]), v = side(p[2], p[0]), w = side(p[0], p[1]), area = u + v + w;
+    const bool covers = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
+    return covers && area != 0 && (u * p[0].z() + v * p[1].z() + w * p[2].z()) / area > at.z() + kFingertip;
+  };
+  for (const Surface& surface : surfaces) {
+    std::vector<Vec3> projected;
+    for (int v = 0; v < surface.vertices.rows(); ++v) projected.push_back(camera.project(surface.vertices.row(v)));
+    const auto corner = [&](int f, int k) { return projected[static_cast<std::size_t>(surface.triangles(f, k))]; };
+    for (int f = 0; f < surface.triangles.rows(); ++f)
+      if (in_range(surface, f) && covers_nearer({corner(f, 0), corner(f, 1), corner(f, 2)})) return true;
+  }
+  return false;
+}
+
+// The view that sees the mark most squarely, if one does.
+std::optional<std::size_t> view_of(const std::vector<Surface>& surfaces, const Layout& layout, const Mark& mark) {
+  std::optional<std::size_t> best;
+  double squareness = 0.2;  // cosine: seen more obliquely it says nothing
+  for (std::size_t i = 0; i < layout.cameras.size(); ++i) {
+    const Camera& camera = layout.cameras[i];
+    const Vec3 at = camera.project(mark.point);
+    if (!at.allFinite() || at.x() < 0 || at.y() < 0 || at.x() > camera.width || at.y() > camera.height) continue;
+    const double cosine = mark.normal.dot(camera.towards);
+    if (cosine <= squareness + 1e-9 || hidden(surfaces, camera, mark.point)) continue;
+    squareness = cosine, best = i;
+  }
+  return best;
+}
+
+void draw_mark(Canvas& canvas, const Camera& camera, const Vec2& corner, const Mark& mark) {
   const Vec3 at = camera.project(mark.point);
-  if (!at.allFinite() || at.x() < 0 || at.y() < 0 || at.x() > camera.width || at.y() > camera.height) return;
-  const Vec2 centre(layout.left[best] + at.x(), layout.top + at.y());
-  canvas.circle(centre, 11, 4.0, kWhite);
-  canvas.circle(centre, 11, 1.8, kInk);
-  const double width = text_width(mark.text, kCaption);
-  const bool to_left = at.x() + 16 + width > camera.width;
-  const Vec2 text = centre + Vec2(to_left ? -16 - width : 16, 0.5 * kCaption);
-  canvas.fill({text + Vec2(-3, 4), text + Vec2(width + 3, 4), text + Vec2(width + 3, -kCaption - 4),
-               text + Vec2(-3, -kCaption - 4)},
-              kWhite);
+  const Vec2 centre = corner + at.head<2>();
+  canvas.circle(centre, kMarkRadius, 4.0, kWhite);
+  canvas.circle(centre, kMarkRadius, 1.8, kInk);
+  const double width = text_width(mark.text, kCaption), beside = kMarkRadius + 5;
+  const bool to_left = at.x() + beside + width > camera.width;
+  const Vec2 text = centre + Vec2(to_left ? -beside - width : beside, 0.5 * kCaption);
+  const Vec2 low = text + Vec2(-3, 4), high = text + Vec2(width + 3, -kCaption - 4);
+  canvas.fill({low, {high.x(), low.y()}, high, {low.x(), high.y()}}, kWhite);
   canvas.text(text, kCaption, mark.text, kInk);
+}
+
+void draw_marks(Canvas& canvas, const Layout& layout, const std::vector<Surface>& surfaces,
+                const SheetOptions& options) {
+  int drawn = 0;
+  for (const Mark& mark : options.marks) {
+    if (drawn >= options.marks_drawn) return;
+    const auto view = view_of(surfaces, layout, mark);
+    if (!view) continue;
+    draw_mark(canvas, layout.cameras[*view], Vec2(layout.left[*view], layout.top), mark);
+    ++drawn;
+  }
 }
 
 }  // namespace
@@ -82,8 +131,7 @@ Image contact_sheet(const std::vector<Surface>& surfaces, const SheetOptions& op
     const Vec2 corner(layout.width - kGap - kStretchLegendWidth, layout.top);
     draw_stretch_legend(canvas, corner, std::min(360, layout.views_bottom - layout.top), *options.stretch_scale);
   }
-  if (!layout.cameras.empty())
-    for (const Mark& mark : options.marks) draw_mark(canvas, layout, mark);
+  draw_marks(canvas, layout, surfaces, options);
   return canvas.finish();
 }
 

@@ -6,7 +6,7 @@
 
 namespace toile {
 
-// A circle with a word, drawn in the one view that looks at it most squarely.
+// A circle with a word, drawn in the one view that sees it most squarely; none where it is hidden from all.
 struct Mark {
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();  // outside of the surface there
@@ -20,8 +20,9 @@ struct SheetOptions {
   int max_view_width = 720;             // ... unless a view would grow wider than this
   std::string title;                    // above the views, may be empty
   std::optional<double> stretch_scale;  // legend of stretch_colour() at this scale, dimensionless
-  std::vector<Mark> marks;
-  int supersample = 2;  // 1..4
+  std::vector<Mark> marks;              // in order of importance ...
+  int marks_drawn = 1000;               // ... of which at most so many that can be seen are drawn
+  int supersample = 2;                  // 1..4
 };
 
 Image contact_sheet(const std::vector<Surface>& surfaces, const SheetOptions& options);

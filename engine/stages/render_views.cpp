@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
 #include "engine/render/palette.h"
 #include "engine/render/png.h"
 
@@ -49,25 +49,45 @@ Points3 placed_vertices(const Pattern& pattern, const PatternMesh& mesh) {
   return placed;
 }
 
-// The largest stretches, each at least kMarkDistance from those before it.
-std::vector<Mark> largest_stretches(const Surface& garment, const FittingMap& map, int count) {
-  std::vector<int> order(static_cast<std::size_t>(map.triangle_count()));
+// Signed stretch, or its difference from the reference, as a mean over each triangle's neighbours: one torn triangle
+// is not a place where a garment pulls.
+Eigen::VectorXd smoothed_stretch(const Surface& garment, const FittingMap& map, const FittingMap* reference) {
+  const auto count = map.triangle_count();
+  Eigen::VectorXd value(count), of_vertex(garment.vertices.rows()), weight(garment.vertices.rows());
+  for (int f = 0; f < count; ++f) value[f] = map.signed_stretch(f) - (reference ? reference->signed_stretch(f) : 0.0);
+  for (int round = 0; round < 2; ++round) {
+    of_vertex.setZero(), weight.setZero();
+    for (int f = 0; f < count; ++f) {
+      if (map.degenerate[static_cast<std::size_t>(f)] || !std::isfinite(value[f])) continue;
+      for (int k = 0; k < 3; ++k) {
+        of_vertex[garment.triangles(f, k)] += map.rest_area[f] * value[f];
+        weight[garment.triangles(f, k)] += map.rest_area[f];
+      }
+    }
+    for (int f = 0; f < count; ++f) {
+      double sum = 0.0;
+      for (int k = 0; k < 3; ++k)
+        sum += of_vertex[garment.triangles(f, k)] / std::max(1e-12, weight[garment.triangles(f, k)]);
+      value[f] = sum / 3.0;
+    }
+  }
+  return value;
+}
+
+// The largest values, each at least kMarkDistance from those before it.
+std::vector<Mark> largest_stretches(const Surface& garment, const Eigen::VectorXd& value, int count) {
+  std::vector<int> order(static_cast<std::size_t>(value.size()));
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return std::abs(map.signed_stretch(a)) > std::abs(map.signed_stretch(b)); });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(value[a]) > std::abs(value[b]); });
   std::vector<Mark> marks;
   for (const int f : order) {
     if (static_cast<int>(marks.size()) >= count) break;
-    if (map.degenerate[static_cast<std::size_t>(f)]) continue;
     const Vec3 a = garment.vertices.row(garment.triangles(f, 0)), b = garment.vertices.row(garment.triangles(f, 1)),
                c = garment.vertices.row(garment.triangles(f, 2));
     const Vec3 centre = (a + b + c) / 3.0;
     const bool apart = std::all_of(marks.begin(), marks.end(),
                                    [&](const Mark& m) { return (m.point - centre).norm() >= kMarkDistance; });
-    if (!apart) continue;
-    char text[32];
-    std::snprintf(text, sizeof text, "%+.1f %%", 100 * map.signed_stretch(f));
-    marks.push_back({centre, (b - a).cross(c - a).normalized(), text});
+    if (apart) marks.push_back({centre, (b - a).cross(c - a).normalized(), print_text("%+.1f %%", 100 * value[f])});
   }
   return marks;
 }
@@ -99,14 +119,19 @@ Bytes render_views(const TriangleMesh* body, const PatternMesh* mesh, const Drap
   if (has_garment) {
     if (drape->nodes.rows() != mesh->node_count)
       throw Error(ErrorCode::Internal, "picture", "the drape does not belong to this pattern mesh");
-    if (map && map->triangle_count() != mesh->triangle_count())
+    const bool same_mesh = !map || map->triangle_count() == mesh->triangle_count();
+    if (!same_mesh || (map && options.reference && options.reference->triangle_count() != mesh->triangle_count()))
       throw Error(ErrorCode::Internal, "picture", "the fitting map does not belong to this pattern mesh");
     surfaces.push_back(garment_surface(*mesh, drape->nodes, mesh->node_of_vertex, map, options.stretch_scale));
   }
   SheetOptions sheet = sheet_for(surfaces, has_garment, options);
   if (has_garment && map) {
     if (options.legend) sheet.stretch_scale = options.stretch_scale;
-    sheet.marks = largest_stretches(surfaces.back(), *map, options.marks);
+    sheet.marks_drawn = options.marks;
+    // Some places are hidden from all four sides: have others ready.
+    if (options.marks > 0)
+      sheet.marks = largest_stretches(surfaces.back(), smoothed_stretch(surfaces.back(), *map, options.reference),
+                                      4 * options.marks);
   }
   return write_png(contact_sheet(surfaces, sheet));
 }

@@ -26,7 +26,8 @@ struct ViewOptions {
   int max_view_width = 720;     // pixels
   double stretch_scale = 0.10;  // full red or blue at this signed stretch, dimensionless, > 0; one for a whole job
   bool legend = true;           // for stretch colours
-  int marks = 0;                // mark this many of the largest stretches, at least 10 cm apart
+  int marks = 0;                // mark this many of the largest stretches that can be seen, at least 10 cm apart
+  const FittingMap* reference = nullptr;  // marks show the difference from this fit of the same mesh instead
   std::string title;
 };
 
