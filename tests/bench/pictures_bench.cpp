@@ -10,15 +10,12 @@
 #include "engine/io/report_html.h"
 #include "engine/io/svg.h"
 #include "engine/io/ticket_document.h"
+#include "engine/pipeline_inputs.h"
 #include "engine/render/drawing_picture.h"
 #include "engine/render/png.h"
 #include "engine/stages/build_fitting_map.h"
 #include "engine/stages/drape.h"
 #include "engine/stages/draw_pattern.h"
-#include "engine/stages/find_skeleton.h"
-#include "engine/stages/import_body.h"
-#include "engine/stages/import_pattern.h"
-#include "engine/stages/measure_body.h"
 #include "engine/stages/mesh_panels.h"
 #include "engine/stages/render_views.h"
 #include "tests/bench/bench.h"
@@ -58,16 +55,6 @@ class Folder {
   Table table_{{"file", "CPU ms", "KiB"}};
 };
 
-Body measured_body(const std::string& path) {
-  Body body = import_body(read(path), path).body;
-  const FindSkeletonResult found = find_skeleton(body.surface);
-  body.skeleton = found.skeleton;
-  const MeasureBodyResult measured = measure_body(body.surface, *body.skeleton);
-  body.landmarks = measured.landmarks;
-  body.measurements = measured.measurements;
-  return body;
-}
-
 }  // namespace
 
 int bench_pictures(const Arguments& arguments) {
@@ -75,8 +62,8 @@ int bench_pictures(const Arguments& arguments) {
     std::fprintf(stderr, "usage: toile-bench pictures GARMENT.json BODY.obj FOLDER\n");
     return 2;
   }
-  const Pattern pattern = import_pattern(read(arguments.words[0]));
-  const Body body = measured_body(arguments.words[1]);
+  const Pattern pattern = read_garment({arguments.words[0], read(arguments.words[0])});
+  const Body body = read_body({arguments.words[1], read(arguments.words[1])});
   const PatternMesh mesh = mesh_panels(pattern);
   const DrapeResult draped = drape(pattern, mesh, body, {}, nullptr);
   const FittingMap fit = build_fitting_map(mesh, draped.drape);
