@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/stages/mannequin_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/core/units.h"
+#include "engine/stages/mannequin_limbs.h"
+#include "engine/stages/mannequin_rows.h"
+#include "engine/stages/mannequin_tables.h"
+
+namespace toile {
+namespace {
+
+constexpr int kAround = MannequinCage::kAround;
+using Azimuths = std::array<double, kAround>;
+constexpr Azimuths kTrunkAzimuth = {0, 27, 50, 71, 90, 109, 130, 153, 180};
+constexpr Azimuths kShoulderAzimuth = {0, 22, 42, 60, 90, 120, 138, 158, 180};
+constexpr Azimuths kHeadAzimuth = {0, 15, 36, 62, 90, 116, 138, 158, 180};
+
+class CagePoints {
+ public:
+  CagePoints(const MannequinShape& shape, const MannequinCage& cage)
+      : shape_(shape), cage_(cage), levels_(mannequin_levels(shape)), points_(cage.half_count, 3) {}
+
+  Points3 build() {
+    trunk();
+    shoulders();
+    neck();
+    head();
+    place_leg(shape_, cage_, points_);
+    place_arm(shape_, cage_, points_);
+    for (const int point : cage_.midline) points_(point, 0) = 0.0;
+    return points_ * shape_.height;
+  }
+
+ private:
+  void put(int point, const Vec3& position) { points_.row(point) = position.transpose(); }
+  Vec3 at(int point) const { return points_.row(point).transpose(); }
+
+  void trunk() {
+    for (std::size_t r = 0; r < cage_.trunk.size(); ++r) {
+      const double t = kTrunkRows[r], factor = trunk_factor(shape_, t);
+      const Vec3 axis(0.0, levels_.on_trunk(t), trunk_axis_z(shape_, r));
+      const double breadth = r + 1 == cage_.trunk.size() ? std::sqrt(shape_.shoulder_width) : 1.0;
+      for (std::size_t i = 0; i < kAround; ++i) {
+        const double radius = fan_radius(mannequin_tables::kTrunk, r, i, shape_) * factor;
+        put(cage_.trunk[r][i], axis + radius * ray(kTrunkAzimuth[i], 0.0).cwiseProduct(Vec3(breadth, 1.0, 1.0)));
+      }
+    }
+    const auto& low = cage_.trunk.front();
+    put(cage_.bridge, Vec3(0.0, levels_.crotch, (2.0 * at(low[0]).z() + 3.0 * at(low[8]).z()) / 5.0));
+  }
+
+  void shoulders() {
+    constexpr std::array<double, 4> kElevation = {0.0, 12.0, 25.0, 45.0};
+    const Vec3 axis(0.0, levels_.armpit + 0.022, shoulder_axis_z(shape_));
+    for (std::size_t r = 0; r < kElevation.size(); ++r) {
+      const double factor = shoulder_factor(shape_, (static_cast<double>(r) + 1.0) / 5.0);
+      for (std::size_t i = 0; i < kAround; ++i) {
+        if (cage_.shoulder[r][i] < 0) continue;
+        const double radius = fan_radius(mannequin_tables::kShoulder, r, i, shape_) * factor;
+        const Vec3 breadth(shape_.shoulder_width, 1.0, 1.0);
+        put(cage_.shoulder[r][i], axis + radius * ray(kShoulderAzimuth[i], kElevation[r]).cwiseProduct(breadth));
+      }
+    }
+  }
+
+  void neck() {
+    constexpr std::array<double, kAround> kRadius = {37, 35, 31, 30, 33, 38, 40, 38, 37};  // thousandths
+    const double factor = shape_.factor(Girth::Neck) * (1.0 + 0.1 * shape_.fatness) * 1e-3;
+    for (std::size_t i = 0; i < kAround; ++i) {
+      const Vec3 out = ray(kHeadAzimuth[i], 0.0);
+      const double back = 0.5 * (1.0 - out.z());
+      const Vec3 middle(0.0, levels_.neck + 0.014 * (back - 0.5), neck_axis_z(shape_));
+      const Vec3 base(0.0, levels_.neck - 0.030 + 0.022 * back, neck_axis_z(shape_) - 0.004);
+      put(cage_.neck[i], middle + factor * kRadius[i] * out);
+      put(cage_.shoulder[4][i], base + factor * kRadius[i] * (1.10 + 0.12 * std::abs(out.x())) * out);
+    }
+  }
+
+  void head() {
+    constexpr std::array<double, 9> kFront = {-64, -48, -34, -20, -6, 8, 24, 42, 60};
+    constexpr std::array<double, 9> kBack = {-38, -28, -18, -8, 2, 14, 28, 44, 60};
+    const double size = shape_.head_size * shape_.factor(Girth::Head) * 1e-3;
+    const Vec3 centre(0.0, levels_.head, head_axis_z(shape_));
+    const auto& table = mannequin_tables::kHead;
+    for (std::size_t r = 0; r < cage_.head.size(); ++r) {
+      for (std::size_t i = 0; i < kAround; ++i) {
+        const double front = 0.5 * (1.0 + std::cos(kHeadAzimuth[i] * kRadianPerDegree));
+        const double elevation = front * kFront[r] + (1.0 - front) * kBack[r];
+        put(cage_.head[r][i], centre + size * table[r][i] * ray(kHeadAzimuth[i], elevation));
+      }
+    }
+    const auto& crown = table.back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double azimuth = 90.0 * static_cast<double>(k);
+      put(cage_.crown[k][0], centre + size * crown[4 * k] * (k == 1 ? ray(0.0, 90.0) : ray(azimuth, 76.0)));
+      put(cage_.crown[k][1], centre + size * crown[4 * k] * ray(45.0 + 0.5 * azimuth, k == 1 ? 76.0 : 71.0));
+    }
+  }
+
+  const MannequinShape& shape_;
+  const MannequinCage& cage_;
+  const MannequinLevels levels_;
+  Points3 points_;  // in body heights
+};
+
+// What interpolation leaves ragged: the halves must not cross the midline, and the soles are flat.
+void flatten(Points3& vertices, const MannequinTemplate& shared) {
+  constexpr double kLeastGap = 1e-3;  // m, from the midline: inner thighs touch across twice this
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    const int other = shared.mirror_of[static_cast<std::size_t>(v)];
+    if (other == v) {
+      vertices(v, 0) = 0.0;
+    } else if (other > v) {
+      const bool left = vertices(v, 0) >= vertices(other, 0);
+      (void)left;
+    }
+    vertices(v, 1) = std::max(vertices(v, 1), 0.0);
+  }
+  (void)kLeastGap;
+}
+
+}  // namespace
+
+Points3 mannequin_cage_points(const MannequinShape& shape, const MannequinCage& cage) {
+  return CagePoints(shape, cage).build();
+}
+
+Points3 mannequin_surface(const MannequinShape& shape) {
+  const MannequinTemplate& shared = mannequin_template();
+  const Points3 half = mannequin_cage_points(shape, shared.cage);
+  Points3 whole(shared.cage.point_count(), 3);
+  for (int p = 0; p < shared.cage.half_count; ++p) {
+    whole.row(shared.cage.mirror_of[static_cast<std::size_t>(p)]) << -half(p, 0), half(p, 1), half(p, 2);
+    whole.row(p) = half.row(p);
+  }
+  constexpr int kSweeps = 8;  // leaves under 1 mm between the table's points and the surface, without ripples
+  Points3 vertices = shared.surface * interpolating_control_points(shared.limit, whole, kSweeps);
+  flatten(vertices, shared);
+  return vertices;
+}
+
+}  // namespace toile
