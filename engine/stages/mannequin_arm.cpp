@@ -25,7 +25,7 @@ struct ArmRing {
 };
 // Distances from the armpit along the upper arm, then from the elbow along the forearm, then from the wrist.
 constexpr std::array<ArmRing, 4> kUpperArm = {
-    {{.020, .036, .0300, .0330}, {.052, .016, .0280, .0305}, {.090, .004, .0255, .0275}, {.132, .000, .0228, .0245}}};
+    {{.020, .036, .0290, .0315}, {.052, .016, .0283, .0308}, {.090, .004, .0265, .0285}, {.132, .000, .0228, .0245}}};
 constexpr std::array<ArmRing, 4> kForearm = {
     {{.030, .0, .0232, .0240}, {.068, .0, .0205, .0208}, {.108, .0, .0160, .0168}, {.146, .0, .0120, .0155}}};
 constexpr double kElbow = 0.135, kWrist = 0.150;
@@ -36,7 +36,9 @@ constexpr std::array<ArmRing, 5> kHand = {{{.016, .0, .0125, .0180},
                                            {.104, .0, .0055, .0150}}};
 constexpr double kFingerTip = 0.110;
 
-double turn_of(std::size_t column) { return 36.0 * (static_cast<double>(column) - 1.0); }
+double turn_of(std::size_t column) {
+  return 36.0 * (static_cast<double>(column) - 1.0);
+}
 
 class ArmPlacer {
  public:
@@ -53,8 +55,7 @@ class ArmPlacer {
     for (std::size_t r = 0; r < kHand.size(); ++r) ring(cage_.hand[r], hand, kHand[r], size);
     const ArmRing& last = kHand.back();
     for (std::size_t k = 0; k < 2; ++k)
-      put(cage_.finger_tip[k], hand.at(kFingerTip * length_, k == 0 ? 0.0 : 180.0, 0.2 * last.half_height, 0.0) +
-                                   (k == 0 ? 0.3 : 0.3) * last.half_depth * (k == 0 ? 1.0 : 1.0) * Vec3::Zero());
+      put(cage_.finger_tip[k], hand.at(kFingerTip * length_, k == 0 ? 0.0 : 180.0, 0.4 * last.half_height, 0.0));
     thumb(hand, size);
   }
 
@@ -108,7 +109,8 @@ class ArmPlacer {
 
   // Grows out of the gap left at the front of the hand.
   void thumb(const LimbFrame& hand, double size) {
-    constexpr std::array<double, 3> kOut = {0.012, 0.024, 0.034}, kOn = {0.014, 0.030, 0.046}, kShare = {0.55, 0.5, 0.32};
+    constexpr std::array<double, 3> kOut = {0.012, 0.024, 0.034}, kOn = {0.014, 0.030, 0.046},
+                                    kShare = {0.55, 0.5, 0.32};
     const std::array<int, 4> root = {cage_.hand[0][8], cage_.hand[0][9], cage_.hand[1][9], cage_.hand[1][8]};
     Vec3 middle = Vec3::Zero();
     for (const int point : root) middle += 0.25 * at(point);

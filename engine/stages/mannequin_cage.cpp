@@ -175,10 +175,38 @@ std::vector<int> mirrored_vertices(const PointStencils& surface, const std::vect
   constexpr double kRounding = 1e-12;
   for (std::size_t v = 0; v < order.size(); ++v) {
     const double value = there[static_cast<Eigen::Index>(v)] - kRounding;
-    const auto found = std::lower_bound(order.begin(), order.end(), value, [&](int a, double x) { return here[a] < x; });
+    const auto found =
+        std::lower_bound(order.begin(), order.end(), value, [&](int a, double x) { return here[a] < x; });
     mirror_of[v] = *found;
   }
   return mirror_of;
+}
+
+// On the side where the greater part of a vertex's stencil lies.
+std::vector<bool> left_vertices(const PointStencils& surface, const MannequinCage& cage) {
+  Eigen::VectorXd side = Eigen::VectorXd::Constant(cage.point_count(), -1.0);
+  side.head(cage.half_count).setOnes();
+  for (const int point : cage.midline) side[point] = 0.0;
+  const Eigen::VectorXd sides = surface * side;
+  std::vector<bool> left(static_cast<std::size_t>(sides.size()));
+  for (std::size_t v = 0; v < left.size(); ++v) left[v] = sides[static_cast<Eigen::Index>(v)] > 0.0;
+  return left;
+}
+
+// Triangles whose corners depend more on the points of the arm than on those of the trunk.
+Triangles left_arm_triangles(const MannequinTemplate& shared) {
+  Eigen::VectorXd arm = Eigen::VectorXd::Zero(shared.cage.point_count());
+  for (const auto& row : shared.cage.arm)
+    for (const int point : row) arm[point] = 1.0;
+  for (const auto& row : shared.cage.hand)
+    for (const int point : row) arm[point] = 1.0;
+  const Eigen::VectorXd share = shared.surface * arm;
+  std::vector<Eigen::Index> chosen;
+  for (Eigen::Index t = 0; t < shared.triangles.rows(); ++t) {
+    const auto corners = shared.triangles.row(t);
+    if (share[corners[0]] + share[corners[1]] + share[corners[2]] > 1.5) chosen.push_back(t);
+  }
+  return shared.triangles(chosen, Eigen::all);
 }
 
 MannequinTemplate make_template() {
@@ -192,7 +220,9 @@ MannequinTemplate make_template() {
   shared.limit = catmull_clark_limit(coarse, points);
   shared.surface = catmull_clark_limit(twice.quads, vertices) * PointStencils(twice.points * once.points);
   shared.triangles = cut(twice.quads);
+  shared.left = left_vertices(shared.surface, shared.cage);
   shared.mirror_of = mirrored_vertices(shared.surface, shared.cage.mirror_of);
+  shared.left_arm = left_arm_triangles(shared);
   return shared;
 }
 
@@ -208,11 +238,13 @@ CageRow<MannequinCage::kLegAround> MannequinCage::leg_loop() const {
 CageRow<MannequinCage::kArmAround> MannequinCage::armhole() const {
   const auto& low = trunk.back();
   const auto& high = shoulder[2];
-  return {low[3],  low[4],  low[5],         shoulder[0][5], shoulder[1][5],
+  return {low[3],  low[4],  low[5],  shoulder[0][5], shoulder[1][5],
           high[5], high[4], high[3], shoulder[1][3], shoulder[0][3]};
 }
 
-MannequinCage make_mannequin_cage() { return CageBuilder().build(); }
+MannequinCage make_mannequin_cage() {
+  return CageBuilder().build();
+}
 
 const MannequinTemplate& mannequin_template() {
   static const MannequinTemplate shared = make_template();

@@ -26,28 +26,51 @@ double along(std::initializer_list<Knot> knots, double x) {
 
 struct Line {
   double mean, sex, fatness;  // thousandths of body height
-  double at(const MannequinShape& shape) const {
-    return 1e-3 * (mean + sex * shape.sex + fatness * shape.fatness);
-  }
+  double at(const MannequinShape& shape) const { return 1e-3 * (mean + sex * shape.sex + fatness * shape.fatness); }
 };
 
-// Depth of the axis, positive to the front, and its breadth from the midline for the legs. Source: as mannequin_tables.h.
+// Depth of the axis, positive to the front, and its breadth from the midline for the legs. Source: as
+// mannequin_tables.h.
 constexpr std::array<Line, 9> kTrunkZ = {
     {{-9, 3, 2}, {-10, 3, 2}, {-3, 1, 2}, {7, 1, 1}, {10, -1, 1}, {8, -1, -1}, {3, -2, -2}, {1, -3, -3}, {-7, -1, -2}}};
+constexpr double kCrown = 0.0698;  // of an adult, over the middle of the head
 constexpr Line kShoulderZ = {-13, 0, -2}, kNeckZ = {1, 4, 0}, kHeadZ = {7, 2, 0};
-constexpr std::array<Line, 10> kLegX = {{{59, -4, 1}, {62, -3, 0}, {64, -3, -1}, {68, -3, -1}, {73, -3, -1},
-                                         {80, -3, -2}, {82, -5, -2}, {84, -6, -3}, {86, -6, -3}, {84, -7, -4}}};
-constexpr std::array<Line, 10> kLegZ = {{{1, -3, 1}, {1, -4, 0}, {-1, -4, -1}, {-2, -4, -2}, {-8, -5, -2},
-                                         {-18, -4, -2}, {-23, -3, -2}, {-23, -3, -2}, {-22, -4, -2}, {-19, -3, -2}}};
+constexpr std::array<Line, 10> kLegX = {{{59, -4, 1},
+                                         {62, -3, 0},
+                                         {64, -3, -1},
+                                         {68, -3, -1},
+                                         {73, -3, -1},
+                                         {80, -3, -2},
+                                         {82, -5, -2},
+                                         {84, -6, -3},
+                                         {86, -6, -3},
+                                         {84, -7, -4}}};
+constexpr std::array<Line, 10> kLegZ = {{{1, -3, 1},
+                                         {1, -4, 0},
+                                         {-1, -4, -1},
+                                         {-2, -4, -2},
+                                         {-8, -5, -2},
+                                         {-18, -4, -2},
+                                         {-23, -3, -2},
+                                         {-23, -3, -2},
+                                         {-22, -4, -2},
+                                         {-19, -3, -2}}};
 
 }  // namespace
 
+double head_scale(const MannequinShape& shape, double elevation) {
+  constexpr double kChinBelowMiddle = 0.0587;
+  const double skull = shape.head_girth * shape.factor(Girth::Head);
+  const double face = (0.129 * shape.head_height - kCrown * skull) / kChinBelowMiddle;
+  return along({{-34.0, face}, {14.0, skull}}, elevation);
+}
+
 MannequinLevels mannequin_levels(const MannequinShape& shape) {
-  const double larger = shape.head_size - 1.0;  // a child's larger head takes its share from neck and chest
+  const double chin = 1.0 - 0.129 * shape.head_height;  // a child's larger head pushes the shoulders down
   return {.crotch = shape.crotch_height / shape.height,
-          .armpit = 0.7526 - 0.035 * larger,
-          .neck = 0.862 - 0.048 * larger,
-          .head = 1.0 - 0.0698 * shape.head_size};
+          .armpit = chin - 0.1184,
+          .neck = chin - 0.009,
+          .head = 1.0 - kCrown * shape.head_girth * shape.factor(Girth::Head)};
 }
 
 Vec3 ray(double azimuth, double elevation) {
@@ -55,10 +78,18 @@ Vec3 ray(double azimuth, double elevation) {
   return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
 }
 
-double trunk_axis_z(const MannequinShape& shape, std::size_t row) { return kTrunkZ[row].at(shape); }
-double shoulder_axis_z(const MannequinShape& shape) { return kShoulderZ.at(shape); }
-double neck_axis_z(const MannequinShape& shape) { return kNeckZ.at(shape); }
-double head_axis_z(const MannequinShape& shape) { return kHeadZ.at(shape); }
+double trunk_axis_z(const MannequinShape& shape, std::size_t row) {
+  return kTrunkZ[row].at(shape);
+}
+double shoulder_axis_z(const MannequinShape& shape) {
+  return kShoulderZ.at(shape);
+}
+double neck_axis_z(const MannequinShape& shape) {
+  return kNeckZ.at(shape);
+}
+double head_axis_z(const MannequinShape& shape) {
+  return kHeadZ.at(shape);
+}
 
 Vec3 leg_axis(const MannequinShape& shape, std::size_t row) {
   const double y = mannequin_levels(shape).crotch * (1.0 - kLegRows[row]);
@@ -70,12 +101,13 @@ double trunk_factor(const MannequinShape& shape, double t) {
                 {0.42, shape.factor(Girth::Belly)},
                 {0.62, shape.factor(Girth::Waist)},
                 {0.80, shape.factor(Girth::Underbust)},
-                {0.91, shape.factor(Girth::Bust)}},
+                {0.91, shape.factor(Girth::Bust)},
+                {1.00, shape.factor(Girth::Chest)}},
                t);
 }
 
 double shoulder_factor(const MannequinShape& shape, double t) {
-  const double chest = 0.5 * (shape.factor(Girth::Bust) + shape.factor(Girth::Underbust));
+  const double chest = 0.5 * (shape.factor(Girth::Chest) + shape.factor(Girth::Underbust));
   return along({{0.0, chest}, {0.4, 0.5 * (1.0 + chest)}, {1.0, 0.6 + 0.4 * shape.factor(Girth::Neck)}}, t);
 }
 

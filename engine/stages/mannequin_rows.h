@@ -20,6 +20,9 @@ struct MannequinLevels {
 
 MannequinLevels mannequin_levels(const MannequinShape& shape);
 
+// Scale of the head's rays at this elevation: skull above, face below.
+double head_scale(const MannequinShape& shape, double elevation);
+
 // Unit vector; azimuth from the front to the left, elevation upwards, degrees.
 Vec3 ray(double azimuth, double elevation);
 

@@ -74,26 +74,27 @@ class CagePoints {
       const Vec3 out = ray(kHeadAzimuth[i], 0.0);
       const double back = 0.5 * (1.0 - out.z());
       const Vec3 middle(0.0, levels_.neck + 0.014 * (back - 0.5), neck_axis_z(shape_));
-      const Vec3 base(0.0, levels_.neck - 0.030 + 0.022 * back, neck_axis_z(shape_) - 0.004);
+      const Vec3 base(0.0, levels_.neck - 0.030 + 0.022 * back, neck_axis_z(shape_) - 0.006);
       put(cage_.neck[i], middle + factor * kRadius[i] * out);
-      put(cage_.shoulder[4][i], base + factor * kRadius[i] * (1.10 + 0.12 * std::abs(out.x())) * out);
+      put(cage_.shoulder[4][i], base + factor * kRadius[i] * (0.92 + 0.10 * back + 0.20 * std::abs(out.x())) * out);
     }
   }
 
   void head() {
     constexpr std::array<double, 9> kFront = {-64, -48, -34, -20, -6, 8, 24, 42, 60};
     constexpr std::array<double, 9> kBack = {-38, -28, -18, -8, 2, 14, 28, 44, 60};
-    const double size = shape_.head_size * shape_.factor(Girth::Head) * 1e-3;
     const Vec3 centre(0.0, levels_.head, head_axis_z(shape_));
     const auto& table = mannequin_tables::kHead;
     for (std::size_t r = 0; r < cage_.head.size(); ++r) {
       for (std::size_t i = 0; i < kAround; ++i) {
         const double front = 0.5 * (1.0 + std::cos(kHeadAzimuth[i] * kRadianPerDegree));
         const double elevation = front * kFront[r] + (1.0 - front) * kBack[r];
-        put(cage_.head[r][i], centre + size * table[r][i] * ray(kHeadAzimuth[i], elevation));
+        const double radius = 1e-3 * head_scale(shape_, elevation) * table[r][i];
+        put(cage_.head[r][i], centre + radius * ray(kHeadAzimuth[i], elevation));
       }
     }
     const auto& crown = table.back();
+    const double size = 1e-3 * head_scale(shape_, 90.0);
     for (std::size_t k = 0; k < 3; ++k) {
       const double azimuth = 90.0 * static_cast<double>(k);
       put(cage_.crown[k][0], centre + size * crown[4 * k] * (k == 1 ? ray(0.0, 90.0) : ray(azimuth, 76.0)));
@@ -107,20 +108,21 @@ class CagePoints {
   Points3 points_;  // in body heights
 };
 
-// What interpolation leaves ragged: the halves must not cross the midline, and the soles are flat.
-void flatten(Points3& vertices, const MannequinTemplate& shared) {
-  constexpr double kLeastGap = 1e-3;  // m, from the midline: inner thighs touch across twice this
+// What interpolation leaves ragged: the halves are exact images that keep off the midline, and the soles are flat.
+// Vertex v and its image are told apart by the side on which their cage points lie.
+void flatten(Points3& vertices, const std::vector<int>& mirror_of, const std::vector<bool>& left) {
+  constexpr double kLeastGap = 5e-4;  // m, from the midline: inner thighs come no nearer than twice this
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    const int other = shared.mirror_of[static_cast<std::size_t>(v)];
+    const auto index = static_cast<std::size_t>(v);
+    const int other = mirror_of[index];
+    vertices(v, 1) = std::max(vertices(v, 1), 0.0);
     if (other == v) {
       vertices(v, 0) = 0.0;
-    } else if (other > v) {
-      const bool left = vertices(v, 0) >= vertices(other, 0);
-      (void)left;
+    } else if (left[index]) {
+      vertices(v, 0) = std::max(vertices(v, 0), kLeastGap);
+      vertices.row(other) << -vertices(v, 0), vertices(v, 1), vertices(v, 2);
     }
-    vertices(v, 1) = std::max(vertices(v, 1), 0.0);
   }
-  (void)kLeastGap;
 }
 
 }  // namespace
@@ -139,7 +141,7 @@ Points3 mannequin_surface(const MannequinShape& shape) {
   }
   constexpr int kSweeps = 8;  // leaves under 1 mm between the table's points and the surface, without ripples
   Points3 vertices = shared.surface * interpolating_control_points(shared.limit, whole, kSweeps);
-  flatten(vertices, shared);
+  flatten(vertices, shared.mirror_of, shared.left);
   return vertices;
 }
 

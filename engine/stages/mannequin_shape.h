@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The shape of a mannequin: where the points of its cage lie, from a handful of lengths and factors.
 //
-// Every row of the trunk, the neck, the head and the legs is a fan of rays from a point on the body's axis; a table gives the
-// distance to the skin along each ray as a share of body height, linear in sex and fatness. Lengths in metres.
+// Every row of the trunk, the neck, the head and the legs is a fan of rays from a point on the body's axis; a table
+// gives the distance to the skin along each ray as a share of body height, linear in sex and fatness. Lengths in
+// metres.
 #pragma once
 
 #include <array>
@@ -13,15 +14,32 @@ namespace toile {
 
 // Where the radii of the tables can be scaled; between them the factors run linearly along the body.
 enum class Girth {
-  Head, Neck, Bust, Underbust, Waist, Belly, Hip, Thigh, MidThigh, Knee, Calf, Ankle, UpperArm, Elbow, Wrist, Count
+  Head,
+  Neck,
+  Chest,
+  Bust,
+  Underbust,
+  Waist,
+  Belly,
+  Hip,
+  Thigh,
+  MidThigh,
+  Knee,
+  Calf,
+  Ankle,
+  UpperArm,
+  Elbow,
+  Wrist,
+  Count
 };
 
 struct MannequinShape {
   double height = 1.68;
   double crotch_height = 0.77;
-  double sex = 0.0;      // -1 woman ... 1 man; children and the average of both 0
-  double fatness = 0.0;  // (waist girth / height - 0.47) / 0.06, clamped to what the table was fitted for
-  double head_size = 1.0;       // against an adult's head of the same height: 1.36 at eight years
+  double sex = 0.0;             // -1 woman ... 1 man; children and the average of both 0
+  double fatness = 0.0;         // (waist girth / height - 0.47) / 0.06, clamped to what the table was fitted for
+  double head_girth = 1.0;      // a child's skull against an adult's of the same height, 1 for adults
+  double head_height = 1.0;     // the same from chin to crown
   double shoulder_width = 1.0;  // factor on the breadth of shoulders and upper back
   double arm_length = 1.0;      // factors on the average share of height
   double foot_length = 1.0;
