@@ -15,6 +15,8 @@ namespace {
 
 // A mesh in which more than this share of the triangles has an opposite twin is a two-sided export: one side is kept.
 constexpr double kTwoSided = 0.25;
+// An open piece of fewer triangles than this share of the largest piece's is debris, however large its triangles are.
+constexpr double kStrayShare = 0.01;
 // Removing triangles can expose new tangles only where many sheets meet; real scans need one or two rounds.
 constexpr int kMaxRounds = 8;
 
@@ -168,6 +170,30 @@ void make_oriented(Triangles& triangles, CleanMeshReport& report) {
   }
 }
 
+// Where fans meet in a point at the rim of a hole, only the largest stays: split apart they would leave two points in
+// one place. Returns the number of triangles removed.
+int remove_open_fans(Triangles& triangles, int vertex_count) {
+  const HalfEdges edges = find_half_edges(triangles);
+  const std::vector<int> fans = corner_fans(triangles, edges);
+  std::vector<int> size(fans.size(), 0), largest(at(vertex_count), -1);
+  std::vector<bool> open(fans.size(), false);
+  for (int c = 0; c < static_cast<int>(fans.size()); ++c) {
+    const int fan = fans[at(c)], before = c % 3 == 0 ? c + 2 : c - 1;
+    ++size[at(fan)];
+    if (edges.opposite[at(c)] < 0 || edges.opposite[at(before)] < 0) open[at(fan)] = true;
+  }
+  for (int c = 0; c < static_cast<int>(fans.size()); ++c) {
+    int& best = largest[at(half_edge_start(triangles, c))];
+    if (fans[at(c)] == c && (best < 0 || size[at(c)] > size[at(best)])) best = c;
+  }
+  std::vector<bool> keep(at(static_cast<int>(triangles.rows())), true);
+  for (int c = 0; c < static_cast<int>(fans.size()); ++c)
+    if (open[at(fans[at(c)])] && fans[at(c)] != largest[at(half_edge_start(triangles, c))]) keep[at(c / 3)] = false;
+  const int removed = static_cast<int>(std::count(keep.begin(), keep.end(), false));
+  if (removed > 0) keep_triangles(triangles, keep);
+  return removed;
+}
+
 int split_pinched_vertices(TriangleMesh& mesh) {
   const std::vector<int> fans = corner_fans(mesh.triangles, find_half_edges(mesh.triangles));
   std::vector<int> fan_of_vertex(at(mesh.vertex_count()), -1);
@@ -190,19 +216,29 @@ int split_pinched_vertices(TriangleMesh& mesh) {
   return static_cast<int>(origin.size());
 }
 
+// Which pieces are the surface: large enough, and either closed or of more than a few stray triangles.
+std::vector<bool> worthy_pieces(const TriangleMesh& mesh, const MeshComponents& pieces, double share) {
+  const HalfEdges edges = find_half_edges(mesh.triangles);
+  std::vector<int> size(pieces.area.size(), 0);
+  std::vector<bool> closed(pieces.area.size(), true), worthy(pieces.area.size());
+  for (int f = 0; f < mesh.triangle_count(); ++f) {
+    const std::size_t piece = at(pieces.of_triangle[at(f)]);
+    ++size[piece];
+    for (int h = 3 * f; h < 3 * f + 3; ++h) closed[piece] = closed[piece] && edges.opposite[at(h)] >= 0;
+  }
+  for (std::size_t i = 0; i < worthy.size(); ++i)
+    worthy[i] = pieces.area[i] >= share * pieces.area.front() && (closed[i] || size[i] >= kStrayShare * size.front());
+  return worthy;
+}
+
 void remove_specks(TriangleMesh& mesh, double share, CleanMeshReport& report) {
   const MeshComponents pieces = find_components(mesh);
   if (pieces.area.size() < 2) return;
+  const std::vector<bool> worthy = worthy_pieces(mesh, pieces, share);
   std::vector<bool> keep(at(mesh.triangle_count()));
-  int removed = 0;
-  for (int f = 0; f < mesh.triangle_count(); ++f) {
-    keep[at(f)] = pieces.area[at(pieces.of_triangle[at(f)])] >= share * pieces.area.front();
-    removed += !keep[at(f)];
-  }
-  if (removed == 0) return;
-  report.speck_triangles += removed;
-  report.specks += static_cast<int>(std::count_if(pieces.area.begin(), pieces.area.end(),
-                                                  [&](double area) { return area < share * pieces.area.front(); }));
+  for (int f = 0; f < mesh.triangle_count(); ++f) keep[at(f)] = worthy[at(pieces.of_triangle[at(f)])];
+  report.specks += static_cast<int>(std::count(worthy.begin(), worthy.end(), false));
+  report.speck_triangles += static_cast<int>(std::count(keep.begin(), keep.end(), false));
   keep_triangles(mesh.triangles, keep);
 }
 
@@ -223,6 +259,10 @@ CleanMeshReport clean_mesh(TriangleMesh& mesh, const CleanMeshOptions& options) 
   if (report.welded_vertices > 0) report.repeated_corners += remove_repeated_corners(mesh.triangles);
   report.duplicate_triangles = remove_duplicates(mesh.triangles);
   make_oriented(mesh.triangles, report);
+  for (int round = 0, removed = 1; removed > 0 && round < kMaxRounds; ++round) {
+    removed = remove_open_fans(mesh.triangles, mesh.vertex_count());
+    report.pinched_triangles += removed;
+  }
   report.split_vertices = split_pinched_vertices(mesh);
   remove_specks(mesh, options.speck_area, report);
   report.slivers = mend_slivers(mesh, options.sliver_height);

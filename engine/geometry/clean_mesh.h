@@ -20,6 +20,7 @@ struct CleanMeshReport {
   int welded_vertices = 0;      // vertices of open edges merged with one of the same position
   int tangled_triangles = 0;    // triangles at edges of more than two triangles, removed
   int one_sided_triangles = 0;  // triangles at edges where no orientation agrees (Moebius bands), removed
+  int pinched_triangles = 0;    // of small fans that hung by one point at the rim of a hole, removed
   int split_vertices = 0;       // vertices added where separate fans of triangles met in a point
   int specks = 0;               // small pieces removed
   int speck_triangles = 0;      // their triangles

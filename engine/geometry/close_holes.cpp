@@ -79,7 +79,9 @@ class HoleCloser {
     return sum / static_cast<double>(near.size());
   }
 
+  // Points in the same place (where fans were split) count as joined: an edge between them would have no length.
   bool joined(int a, int b) const {
+    if (mesh_.vertices.row(a) == mesh_.vertices.row(b)) return true;
     const auto& near = neighbours_[at(on_loop_[at(a)])];
     return std::binary_search(near.begin(), near.end(), b);
   }

@@ -102,6 +102,7 @@ Record describe_repairs(const BodyRepairs& repairs) {
       .add("welded_vertices", cleaning.welded_vertices)
       .add("tangled_triangles", cleaning.tangled_triangles)
       .add("one_sided_triangles", cleaning.one_sided_triangles)
+      .add("pinched_triangles", cleaning.pinched_triangles)
       .add("split_vertices", cleaning.split_vertices)
       .add("specks", cleaning.specks)
       .add("speck_triangles", cleaning.speck_triangles)

@@ -80,6 +80,28 @@ TEST(CleanMesh, SpecksBelowTwoPercentOfTheAreaGo) {
   EXPECT_EQ(mesh.vertex_count(), 242 + 26);
 }
 
+TEST(CleanMesh, StrayTrianglesGoHoweverLargeTheyAre) {
+  const TriangleMesh sphere = make_sphere(1, 12, 20);
+  TriangleMesh mesh = sphere;
+  add_triangle(mesh, 10, 130, 77);
+  add_triangle(mesh, 25, 101, 190);
+  const CleanMeshReport report = clean_mesh(mesh);
+  EXPECT_EQ(report.pinched_triangles, 2);
+  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_EQ(mesh.triangles, sphere.triangles);
+}
+
+TEST(CleanMesh, OpenPiecesOfAFewTrianglesGoHoweverLargeTheyAre) {
+  const TriangleMesh sphere = make_sphere(1, 12, 20);
+  TriangleMesh mesh = sphere;
+  mesh.vertices.conservativeResize(mesh.vertex_count() + 3, 3);
+  mesh.vertices.bottomRows(3) << 2, 0, 0, 3, 0, 0, 2, 1, 0;
+  add_triangle(mesh, mesh.vertex_count() - 3, mesh.vertex_count() - 2, mesh.vertex_count() - 1);
+  const CleanMeshReport report = clean_mesh(mesh);
+  EXPECT_EQ(report.specks, 1);
+  EXPECT_EQ(mesh.vertices, sphere.vertices);
+}
+
 TEST(CleanMesh, RepeatedCornersCopiesAndFoldsGo) {
   TriangleMesh mesh = make_sphere(1, 12, 20);
   const TriangleMesh sphere = mesh;
@@ -133,6 +155,22 @@ TEST(CleanMesh, ASharedPointOfTwoSheetsIsSplit) {
   EXPECT_EQ(report.split_vertices, 1);
   EXPECT_EQ(report.unused_vertices, 1);
   EXPECT_TRUE(is_closed(mesh));
+}
+
+TEST(CleanMesh, AFlapThatHangsByAPointAtARimGoes) {
+  TriangleMesh mesh = make_sphere(1, 12, 20);
+  // Open the north but for one triangle, which then hangs by its lower vertices and its neighbours' rims.
+  const int north = 240;
+  std::vector<int> kept;
+  for (int f = 0; f < mesh.triangle_count(); ++f)
+    if (!(mesh.triangles.row(f).array() == north).any()) kept.push_back(f);
+  mesh.triangles = mesh.triangles(kept, Eigen::all).eval();
+  add_triangle(mesh, north, 0, 6);
+  const CleanMeshReport report = clean_mesh(mesh);
+  EXPECT_EQ(report.pinched_triangles, 1);
+  EXPECT_EQ(report.split_vertices, 0);
+  EXPECT_EQ(find_defects(mesh.vertex_count(), mesh.triangles).pinched_vertices, 0);
+  EXPECT_EQ(find_defects(mesh.vertex_count(), mesh.triangles).open_edges, 20);
 }
 
 TEST(CleanMesh, AMoebiusBandBecomesOrientable) {
