@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the options and results of stages are archived (core/archive.h), field by field; options enter a stage's key.
+// Every function names all fields of its type, so that it does not compile when one is added and forgotten here.
 #pragma once
 
+#include "engine/alter/alter_pattern.h"
 #include "engine/core/archive_values.h"
 #include "engine/derive_in_loop.h"
 #include "engine/stages/derive_pattern.h"
@@ -12,50 +14,152 @@ namespace toile {
 
 template <class A>
 void archive(A& a, MeshPanelsOptions& v) {
-  a(v.triangles, v.edge_length);
+  auto& [triangles, edge_length] = v;
+  a(triangles, edge_length);
 }
 
 template <class A>
+void archive(A& a, BodyLevels& v) {
+  auto& [shoulder_y, armpit_y, waist_y, crotch_y] = v;
+  a(shoulder_y, armpit_y, waist_y, crotch_y);
+}
+template <class A>
 void archive(A& a, DrapeOptions& v) {
-  a(v.friction, v.gravity, v.thickness, v.sag_radius, v.contact_stiffness, v.iterations, v.stop_residual, v.keep_drape);
+  auto& [friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, lift, drafted_for,
+         keep_drape] = v;
+  a(friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, lift, drafted_for,
+    keep_drape);
 }
 template <class A>
 void archive(A& a, DrapeDiagnostics& v) {
-  a(v.sewing_iterations, v.iterations, v.evaluations, v.energy, v.residual, v.stalled);
+  auto& [upper_shift, bodice, hold_height, sewing_iterations, iterations, evaluations, energy, residual, stalled] = v;
+  a(upper_shift, bodice, hold_height, sewing_iterations, iterations, evaluations, energy, residual, stalled);
 }
 template <class A>
 void archive(A& a, StrainPercentiles& v) {
-  a(v.p50, v.p99);
+  auto& [p50, p99] = v;
+  a(p50, p99);
 }
 template <class A>
 void archive(A& a, DrapeQuality& v) {
-  a(v.rest, v.residual, v.settling_move, v.weft, v.warp, v.shear, v.deepest_node, v.nodes_inside, v.deepest_edge,
-    v.edges_inside, v.crossing_pairs, v.crossing_share, v.seam_gap);
+  auto& [rest, residual, settling_move, weft, warp, shear, deepest_node, nodes_inside, deepest_edge, edges_inside,
+         crossing_pairs, crossing_share, seam_gap] = v;
+  a(rest, residual, settling_move, weft, warp, shear, deepest_node, nodes_inside, deepest_edge, edges_inside,
+    crossing_pairs, crossing_share, seam_gap);
 }
 template <class A>
 void archive(A& a, DrapeResult& v) {
-  a(v.drape, v.quality, v.diagnostics);
+  auto& [drape, quality, diagnostics] = v;
+  a(drape, quality, diagnostics);
 }
 
 template <class A>
 void archive(A& a, DerivePatternOptions& v) {
-  a(v.max_sweeps, v.energy_drop, v.seam_weight, v.keep_straight);
+  auto& [max_sweeps, energy_drop, seam_weight, keep_straight] = v;
+  a(max_sweeps, energy_drop, seam_weight, keep_straight);
 }
 template <class A>
 void archive(A& a, DeriveSweep& v) {
-  a(v.edge_weight, v.energy, v.fit_residual, v.seam_residual);
+  auto& [edge_weight, energy, fit_residual, seam_residual] = v;
+  a(edge_weight, energy, fit_residual, seam_residual);
 }
 template <class A>
 void archive(A& a, DerivePatternResult& v) {
-  a(v.rest, v.sweeps, v.converged, v.fit_residual, v.seam_residual, v.flipped_triangles);
+  auto& [rest, sweeps, converged, fit_residual, seam_residual, flipped_triangles] = v;
+  a(rest, sweeps, converged, fit_residual, seam_residual, flipped_triangles);
 }
 template <class A>
 void archive(A& a, DeriveInLoopOptions& v) {
-  a(v.max_passes, v.good_enough, v.least_gain);
+  auto& [max_passes, good_enough, least_gain] = v;
+  a(max_passes, good_enough, least_gain);
 }
 template <class A>
 void archive(A& a, DerivedPattern& v) {
-  a(v.mesh, v.drape, v.fit, v.rms_stretch_error, v.pass_errors, v.derivation);
+  auto& [mesh, drape, fit, rms_stretch_error, pass_errors, derivation] = v;
+  a(mesh, drape, fit, rms_stretch_error, pass_errors, derivation);
+}
+
+template <class A>
+void archive(A& a, AlterPatternOptions& v) {
+  auto& [max_tears_per_side, seam_preference, stretch_limit, l_shapes, choice, mesh_edge_cuts, cut_smoothness,
+         least_strip, least_change, least_allowance_left] = v;
+  a(max_tears_per_side, seam_preference, stretch_limit, l_shapes, choice, mesh_edge_cuts, cut_smoothness, least_strip,
+    least_change, least_allowance_left);
+}
+template <class A>
+void archive(A& a, TicketSide& v) {
+  auto& [panel, edges, words] = v;
+  a(panel, edges, words);
+}
+template <class A>
+void archive(A& a, TicketProfile& v) {
+  auto& [spacing, amounts] = v;
+  a(spacing, amounts);
+}
+template <class A>
+void archive(A& a, TicketAllowance& v) {
+  auto& [available, needed, left] = v;
+  a(available, needed, left);
+}
+template <class A>
+void archive(A& a, TicketPiece& v) {
+  auto& [name, label, width, length, area, grain_angle, seam_allowance, quantity] = v;
+  a(name, label, width, length, area, grain_angle, seam_allowance, quantity);
+}
+template <class A>
+void archive(A& a, TicketOperation& v) {
+  auto& [kind, where, sides, per_ply, total, largest_at, tapers_to, taper_length, profile, allowance, fabric, pieces,
+         removed_area, touches, below_accuracy, sentence] = v;
+  a(kind, where, sides, per_ply, total, largest_at, tapers_to, taper_length, profile, allowance, fabric, pieces,
+    removed_area, touches, below_accuracy, sentence);
+}
+template <class A>
+void archive(A& a, Ticket& v) {
+  auto& [garment, reference_body, target_body, operations, notes] = v;
+  a(garment, reference_body, target_body, operations, notes);
+}
+template <class A>
+void archive(A& a, PolygonWithHoles& v) {
+  auto& [outline, holes] = v;
+  a(outline, holes);
+}
+template <class A>
+void archive(A& a, AlteredRegion& v) {
+  auto& [name, shape, area, operation] = v;
+  a(name, shape, area, operation);
+}
+template <class A>
+void archive(A& a, SheetStress& v) {
+  auto& [energy, p98, area, over] = v;
+  a(energy, p98, area, over);
+}
+template <class A>
+void archive(A& a, Tear& v) {
+  auto& [kind, panel, side, at, direction] = v;
+  a(kind, panel, side, at, direction);
+}
+template <class A>
+void archive(A& a, MadeTear& v) {
+  auto& [tear, round, weight, release, largest_gap, for_partner] = v;
+  a(tear, round, weight, release, largest_gap, for_partner);
+}
+template <class A>
+void archive(A& a, PanelTearing& v) {
+  auto& [before, after, tears, done, reason] = v;
+  a(before, after, tears, done, reason);
+}
+template <class A>
+void archive(A& a, PanelAlteration& v) {
+  auto& [panel, original, target, kept, cut_lines, kept_in_target, insertions, removals, insertion_pass, removal_pass] =
+      v;
+  a(panel, original, target, kept, cut_lines, kept_in_target, insertions, removals, insertion_pass, removal_pass);
+}
+template <class A>
+void archive(A& a, AlterPatternResult& v) {
+  auto& [panels, ticket, original_area, target_area, inserted_area, removed_area, area_imbalance, insertion_rounds,
+         removal_rounds, trials, reverted, dropped_regions, flags] = v;
+  a(panels, ticket, original_area, target_area, inserted_area, removed_area, area_imbalance, insertion_rounds,
+    removal_rounds, trials, reverted, dropped_regions, flags);
 }
 
 }  // namespace toile

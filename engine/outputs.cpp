@@ -5,8 +5,14 @@
 #include <functional>
 
 #include "engine/core/content_hash.h"
+#include "engine/draw_alterations.h"
 #include "engine/io/drape_obj.h"
+#include "engine/io/options_json.h"
+#include "engine/io/pdf.h"
 #include "engine/io/record_json.h"
+#include "engine/io/svg.h"
+#include "engine/render/drawing_picture.h"
+#include "engine/render/png.h"
 #include "engine/result_records.h"
 #include "engine/stages/render_views.h"
 
@@ -55,7 +61,7 @@ Record head_record(const char* kind, const AlterOptions& options, const JobInfo&
   if (!info.target_body.empty()) inputs.add("target_body", input_record(info.target_body, info.target_body_sha256));
   Record record;
   record.add("schema", "toile/result/1").add("status", "done").add("kind", kind).add("toile_version", TOILE_VERSION);
-  record.add("inputs", std::move(inputs)).add("options", options_record(options));
+  record.add("inputs", std::move(inputs)).add("options", io::options_record(options));
   return record;
 }
 
@@ -97,6 +103,11 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
     return render_views(&r.target_body.surface, &mesh, &r.before.drape, &r.fit_before, views_of("before"));
   });
 
+  const Drawing drawing = draw_alterations(pattern, r.altered);
+  outputs.make("altered_pattern.svg", "image/svg+xml", [&] { return io::write_svg(drawing); });
+  outputs.make("altered_pattern.pdf", "application/pdf", [&] { return io::write_pdf(drawing); });
+  outputs.make("pattern.png", kPng, [&] { return write_png(draw_picture(drawing)); });
+
   const std::vector<BodyZone> zones = body_zones(pattern, mesh, r.reference.drape.drape, r.reference.body);
   const auto fit = [&](const FittingMap& map) {
     return fit_record(pattern, compare_fits(mesh, r.reference.fit, map, {}, zones));
@@ -108,7 +119,8 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
       .add("register_bodies", r.registration.diagnostics)
       .add("transport_garment", r.transported.diagnostics)
       .add("target_drape_before", drape_record(r.before))
-      .add("derive_pattern", derivation_record(r.derived));
+      .add("derive_pattern", derivation_record(r.derived))
+      .add("alter_pattern", alteration_record(r.altered));
   Record bodies;
   bodies.add("reference", body_record(r.reference.body)).add("target", body_record(r.target_body));
   Record result = head_record("alter", options, info);

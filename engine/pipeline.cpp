@@ -26,6 +26,7 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
   const DrapeOptions drape_options = drape_options_of(options);
   const DerivePatternOptions derive_options = derive_options_of(options);
   const DeriveInLoopOptions loop_options = loop_options_of(options);
+  const AlterPatternOptions alter_options = alter_options_of(options);
 
   auto reference = drape_garment(garment, reference_body, options, runner);
   const auto& [pattern, mesh, wearer, worn, fit] = reference.value;
@@ -42,10 +43,13 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
     return derive_in_loop(pattern, mesh, fit, target.value, transported.value.drape, derive_options, drape_options,
                           loop_options, runner.progress());
   });
+  const auto altered = runner.run("alter_pattern", 1, key_of(derived.key, alter_options), [&] {
+    return alter_pattern(pattern, mesh, derived.value.mesh.rest, alter_options, runner.progress());
+  });
 
   FittingMap fit_before = build_fitting_map(mesh, before.value.drape);
   return {std::move(reference.value), target.value, registered.value, transported.value, before.value,
-          std::move(fit_before),      derived.value};
+          std::move(fit_before), derived.value, altered.value};
 }
 
 }  // namespace toile

@@ -6,6 +6,7 @@
 // Source: [Eggler2024, Alg. 1].
 #pragma once
 
+#include "engine/alter/alter_pattern.h"
 #include "engine/core/options.h"
 #include "engine/derive_in_loop.h"
 #include "engine/pipeline_inputs.h"
@@ -34,11 +35,12 @@ struct AlterResult {
   TransportGarmentResult transported;
   DrapeResult before;  // the garment as it is, on the target body
   FittingMap fit_before;
-  DerivedPattern derived;  // the ideal pattern and its drape on the target body
+  DerivedPattern derived;      // the ideal pattern and its drape on the target body
+  AlterPatternResult altered;  // how the original cloth becomes it
 };
 
 // How many stages a runner of each goes through, for its share of the progress.
-inline constexpr int kDrapeStages = 4, kAlterStages = 9;
+inline constexpr int kDrapeStages = 4, kAlterStages = 10;
 
 // Both throw what their stages throw.
 Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput& body, const AlterOptions& options,

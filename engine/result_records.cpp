@@ -6,51 +6,6 @@
 namespace toile {
 namespace {
 
-const char* name(TearWeights weights) {
-  switch (weights) {
-    case TearWeights::Release: return "release";
-    case TearWeights::Boundary: return "boundary";
-    case TearWeights::Greedy: return "greedy";
-  }
-  return "";
-}
-
-const char* name(SymmetryMode symmetry) {
-  switch (symmetry) {
-    case SymmetryMode::Auto: return "auto";
-    case SymmetryMode::Plane: return "plane";
-    case SymmetryMode::Off: return "off";
-  }
-  return "";
-}
-
-const char* name(SolverKind solver) {
-  switch (solver) {
-    case SolverKind::Default: return "default";
-    case SolverKind::Pbd: return "pbd";
-    case SolverKind::Newton: return "newton";
-  }
-  return "";
-}
-
-const char* name(Preset preset) {
-  switch (preset) {
-    case Preset::Draft: return "draft";
-    case Preset::Standard: return "standard";
-    case Preset::Fine: return "fine";
-  }
-  return "";
-}
-
-const char* name(SelfContact contact) {
-  switch (contact) {
-    case SelfContact::Auto: return "auto";
-    case SelfContact::On: return "on";
-    case SelfContact::Off: return "off";
-  }
-  return "";
-}
-
 Record percentiles(const StrainPercentiles& strain) {
   return Record().add("p50", strain.p50).add("p99", strain.p99);
 }
@@ -68,30 +23,6 @@ Record difference_record(const FitDifference& difference) {
 }
 
 }  // namespace
-
-Record options_record(const AlterOptions& o) {
-  Record record;
-  record.add("max_tears_per_side", o.max_tears_per_side)
-      .add("seam_preference", o.seam_preference)
-      .add("stretch_limit", o.stretch_limit)
-      .add("l_shapes", o.l_shapes)
-      .add("cut_smoothness", o.cut_smoothness)
-      .add("tear_weights", name(o.tear_weights))
-      .add("cuts", o.cuts == CutKind::Straight ? "straight" : "mesh-edges")
-      .add("min_strip_mm", o.min_strip_mm)
-      .add("min_change_mm", o.min_change_mm)
-      .add("symmetry", name(o.symmetry))
-      .add("pin_extremities", o.pin_extremities)
-      .add("physics_passes", o.physics_passes)
-      .add("solver", name(o.solver))
-      .add("fibre_slack", o.fibre_slack)
-      .add("shear_limit_deg", o.shear_limit_deg)
-      .add("preset", name(o.preset))
-      .add("triangles", garment_triangles(o))
-      .add("self_contact", name(o.self_contact))
-      .add("outputs", Record::Value(o.outputs));
-  return record;
-}
 
 Record quality_record(const DrapeQuality& q) {
   Record record;
@@ -156,6 +87,42 @@ Record derivation_record(const DerivedPattern& derived) {
       .add("seam_residual_mm", d.seam_residual * kMmPerMetre)
       .add("flipped_triangles", d.flipped_triangles)
       .add("drape", drape_record(derived.drape));
+  return record;
+}
+
+Record alteration_record(const AlterPatternResult& altered) {
+  constexpr double kCm2 = kCmPerMetre * kCmPerMetre;
+  std::vector<Record> panels;
+  for (const PanelAlteration& panel : altered.panels) {
+    const auto pass = [](const PanelTearing& tearing) {
+      Record record;
+      record.add("stretch_p98_before", tearing.before.p98).add("stretch_p98_after", tearing.after.p98);
+      return record.add("tears", static_cast<int>(tearing.tears.size()))
+          .add("done", tearing.done)
+          .add("reason", tearing.reason);
+    };
+    Record record;
+    record.add("panel", panel.panel)
+        .add("insertions", static_cast<int>(panel.insertions.size()))
+        .add("removals", static_cast<int>(panel.removals.size()))
+        .add("insertion_pass", pass(panel.insertion_pass))
+        .add("removal_pass", pass(panel.removal_pass));
+    panels.push_back(std::move(record));
+  }
+  Record record;
+  record.add("operations", static_cast<int>(altered.ticket.operations.size()))
+      .add("original_area_cm2", altered.original_area * kCm2)
+      .add("target_area_cm2", altered.target_area * kCm2)
+      .add("inserted_area_cm2", altered.inserted_area * kCm2)
+      .add("removed_area_cm2", altered.removed_area * kCm2)
+      .add("area_imbalance", altered.area_imbalance)
+      .add("insertion_rounds", altered.insertion_rounds)
+      .add("removal_rounds", altered.removal_rounds)
+      .add("trials", altered.trials)
+      .add("reverted_tears", altered.reverted)
+      .add("dropped_regions", altered.dropped_regions)
+      .add("flags", Record::Value(altered.flags))
+      .add("panels", std::move(panels));
   return record;
 }
 

@@ -2,17 +2,16 @@
 // Stage results as the records that result.json is made of. Names end in their unit.
 #pragma once
 
-#include "engine/core/options.h"
 #include "engine/core/record.h"
 #include "engine/pipeline.h"
 
 namespace toile {
 
-Record options_record(const AlterOptions& options);
 Record quality_record(const DrapeQuality& quality);
 Record drape_record(const DrapeResult& result);  // quality and diagnostics
 Record fit_record(const Pattern& pattern, const FitComparison& comparison);
 Record derivation_record(const DerivedPattern& derived);
+Record alteration_record(const AlterPatternResult& altered);
 Record body_record(const Body& body);
 
 }  // namespace toile

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/stage_options.h"
 
+#include "engine/core/units.h"
+
 namespace toile {
 
 MeshPanelsOptions mesh_options_of(const AlterOptions& options) {
@@ -19,6 +21,24 @@ DeriveInLoopOptions loop_options_of(const AlterOptions& options) {
   DeriveInLoopOptions loop;
   loop.max_passes = options.physics_passes;
   return loop;
+}
+
+AlterPatternOptions alter_options_of(const AlterOptions& options) {
+  AlterPatternOptions alter;
+  alter.max_tears_per_side = options.max_tears_per_side;
+  alter.seam_preference = options.seam_preference;
+  alter.stretch_limit = options.stretch_limit;
+  alter.l_shapes = options.l_shapes;
+  switch (options.tear_weights) {
+    case TearWeights::Release: alter.choice = TearChoice::Release; break;
+    case TearWeights::Boundary: alter.choice = TearChoice::Boundary; break;
+    case TearWeights::Greedy: alter.choice = TearChoice::Greedy; break;
+  }
+  alter.mesh_edge_cuts = options.cuts == CutKind::MeshEdges;
+  alter.cut_smoothness = options.cut_smoothness;
+  alter.least_strip = options.min_strip_mm * kMetrePerMm;
+  alter.least_change = options.min_change_mm * kMetrePerMm;
+  return alter;
 }
 
 }  // namespace toile

@@ -2,6 +2,7 @@
 // What the options of a job mean to each stage.
 #pragma once
 
+#include "engine/alter/alter_pattern.h"
 #include "engine/core/options.h"
 #include "engine/derive_in_loop.h"
 #include "engine/stages/mesh_panels.h"
@@ -12,5 +13,6 @@ MeshPanelsOptions mesh_options_of(const AlterOptions& options);
 DrapeOptions drape_options_of(const AlterOptions& options);
 DerivePatternOptions derive_options_of(const AlterOptions& options);
 DeriveInLoopOptions loop_options_of(const AlterOptions& options);
+AlterPatternOptions alter_options_of(const AlterOptions& options);
 
 }  // namespace toile

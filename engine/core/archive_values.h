@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the core values are archived (archive.h), field by field.
+// How the core values are archived (archive.h), field by field. Every function names all fields of its type, so
+// that it does not compile when one is added and forgotten here.
 #pragma once
 
 #include "engine/core/archive.h"
@@ -13,81 +14,102 @@ namespace toile {
 
 template <class A>
 void archive(A& a, Fabric& v) {
-  a(v.name, v.weft_stiffness, v.warp_stiffness, v.shear_stiffness, v.bending_stiffness, v.density);
+  auto& [name, weft_stiffness, warp_stiffness, shear_stiffness, bending_stiffness, density] = v;
+  a(name, weft_stiffness, warp_stiffness, shear_stiffness, bending_stiffness, density);
 }
 template <class A>
 void archive(A& a, EdgeCurve& v) {
-  a(v.kind, v.control, v.radius, v.large_arc, v.bulges_right);
+  auto& [kind, control, radius, large_arc, bulges_right, points] = v;
+  a(kind, control, radius, large_arc, bulges_right, points);
 }
 template <class A>
 void archive(A& a, PanelEdge& v) {
-  a(v.curve, v.label, v.name, v.seam_allowance, v.hem, v.locked, v.zip, v.straight, v.on_fold);
+  auto& [curve, label, name, seam_allowance, hem, locked, zip, straight, on_fold] = v;
+  a(curve, label, name, seam_allowance, hem, locked, zip, straight, on_fold);
 }
 template <class A>
 void archive(A& a, Notch& v) {
-  a(v.edge, v.at, v.type);
+  auto& [edge, at, type] = v;
+  a(edge, at, type);
 }
 template <class A>
 void archive(A& a, KeepOut& v) {
-  a(v.polygon, v.why);
+  auto& [polygon, why] = v;
+  a(polygon, why);
 }
 template <class A>
 void archive(A& a, Panel& v) {
-  a(v.name, v.label, v.corners, v.edges, v.rotation, v.translation, v.notches, v.keep_outs, v.grainline, v.quantity,
-    v.material, v.piece_label, v.locked);
+  auto& [name, label, corners, edges, rotation, translation, notches, keep_outs, grainline, quantity, material,
+         piece_label, locked] = v;
+  a(name, label, corners, edges, rotation, translation, notches, keep_outs, grainline, quantity, material, piece_label,
+    locked);
 }
 template <class A>
 void archive(A& a, SeamSide& v) {
-  a(v.panel, v.edge);
+  auto& [panel, edge] = v;
+  a(panel, edge);
 }
 template <class A>
 void archive(A& a, Seam& v) {
-  a(v.a, v.b, v.right_wrong);
+  auto& [first, second, right_wrong] = v;
+  a(first, second, right_wrong);
 }
 template <class A>
 void archive(A& a, Pattern& v) {
-  a(v.name, v.panels, v.seams, v.fabric, v.seam_allowance, v.pins, v.symmetry, v.symmetry_plane);
+  auto& [name, panels, seams, fabric, seam_allowance, pins, symmetry, symmetry_plane] = v;
+  a(name, panels, seams, fabric, seam_allowance, pins, symmetry, symmetry_plane);
 }
 template <class A>
 void archive(A& a, PanelRange& v) {
-  a(v.vertex_begin, v.vertex_end, v.triangle_begin, v.triangle_end);
+  auto& [vertex_begin, vertex_end, triangle_begin, triangle_end] = v;
+  a(vertex_begin, vertex_end, triangle_begin, triangle_end);
 }
 template <class A>
 void archive(A& a, PatternMesh& v) {
-  a(v.rest, v.triangles, v.panels, v.panel_of_vertex, v.panel_of_triangle, v.panel_reversed, v.edge_vertices,
-    v.seam_vertices, v.node_of_vertex, v.node_count, v.target_edge_length);
+  auto& [rest, triangles, panels, panel_of_vertex, panel_of_triangle, panel_reversed, edge_vertices, seam_vertices,
+         node_of_vertex, node_count, target_edge_length] = v;
+  a(rest, triangles, panels, panel_of_vertex, panel_of_triangle, panel_reversed, edge_vertices, seam_vertices,
+    node_of_vertex, node_count, target_edge_length);
 }
 template <class A>
 void archive(A& a, TriangleMesh& v) {
-  a(v.vertices, v.triangles);
+  auto& [vertices, triangles] = v;
+  a(vertices, triangles);
 }
 template <class A>
 void archive(A& a, Skeleton::Arm& v) {
-  a(v.shoulder, v.elbow, v.wrist, v.hand_end, v.length, v.girth, v.centre_line);
+  auto& [shoulder, elbow, wrist, hand_end, length, girth, centre_line] = v;
+  a(shoulder, elbow, wrist, hand_end, length, girth, centre_line);
 }
 template <class A>
 void archive(A& a, Skeleton::Leg& v) {
-  a(v.hip, v.knee, v.ankle, v.toe);
+  auto& [hip, knee, ankle, toe] = v;
+  a(hip, knee, ankle, toe);
 }
 template <class A>
 void archive(A& a, Skeleton& v) {
-  a(v.height, v.crotch_y, v.armpit_y, v.neck_y, v.waist_y, v.pelvis, v.waist, v.chest, v.neck, v.arms, v.legs);
+  auto& [height, crotch_y, armpit_y, neck_y, waist_y, pelvis, waist, chest, neck, arms, legs] = v;
+  a(height, crotch_y, armpit_y, neck_y, waist_y, pelvis, waist, chest, neck, arms, legs);
 }
 template <class A>
 void archive(A& a, Body& v) {
-  a(v.name, v.kind, v.surface, v.normalised_from_file, v.skeleton, v.landmarks, v.measurements);
+  auto& [name, kind, surface, normalised_from_file, skeleton, landmarks, measurements] = v;
+  a(name, kind, surface, normalised_from_file, skeleton, landmarks, measurements);
 }
 template <class A>
 void archive(A& a, BodyMap& v) {
-  a(v.mapped, v.exact);
+  auto& [mapped, exact] = v;
+  a(mapped, exact);
 }
 template <class A>
 void archive(A& a, Drape& v) {
-  a(v.nodes);
+  auto& [nodes] = v;
+  a(nodes);
 }
 template <class A>
 void archive(A& a, FittingMap& v) {
-  a(v.tensor, v.stretch_weft, v.stretch_warp, v.shear, v.rest_area, v.degenerate);
+  auto& [tensor, stretch_weft, stretch_warp, shear, rest_area, degenerate] = v;
+  a(tensor, stretch_weft, stretch_warp, shear, rest_area, degenerate);
 }
 
 }  // namespace toile

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/io/record_json.h"
+
 namespace toile::io {
 
 using nlohmann::json;
@@ -92,18 +94,20 @@ class Reader {
 
 class Writer {
  public:
-  json object = json::object();
+  Record record;
 
-  void integer(const char* name, int value, int, int) { object[name] = value; }
-  void number(const char* name, double value, double, double) { object[name] = value; }
-  void boolean(const char* name, bool value) { object[name] = value; }
+  void integer(const char* name, int value, int, int) { record.add(name, value); }
+  void number(const char* name, double value, double, double) { record.add(name, value); }
+  void boolean(const char* name, bool value) { record.add(name, value); }
   template <class Enum>
   void choice(const char* name, Enum value, std::initializer_list<Choice<Enum>> choices) {
     for (const auto& [candidate, text] : choices)
-      if (candidate == value) object[name] = text;
+      if (candidate == value) record.add(name, text);
   }
-  void triangles(const char* name, const AlterOptions& options, int, int) { object[name] = garment_triangles(options); }
-  void text_list(const char* name, const std::vector<std::string>& values) { object[name] = values; }
+  void triangles(const char* name, const AlterOptions& options, int, int) {
+    record.add(name, garment_triangles(options));
+  }
+  void text_list(const char* name, const std::vector<std::string>& values) { record.add(name, Record::Value(values)); }
 };
 
 class Lister {
@@ -177,10 +181,15 @@ void set_option(AlterOptions& options, const std::string& name, const std::strin
   options = read_options(JsonView(object));
 }
 
-std::string write_options(const AlterOptions& options) {
+Record options_record(const AlterOptions& options) {
   Writer writer;
   visit_options(options, writer);
-  return writer.object.dump();
+  return std::move(writer.record);
+}
+
+std::string write_options(const AlterOptions& options) {
+  const Bytes text = write_json(options_record(options));
+  return std::string(text.begin(), text.end());
 }
 
 std::vector<OptionInfo> list_options() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/options.h"
+#include "engine/core/record.h"
 #include "engine/core/types.h"
 #include "engine/io/json.h"
 
@@ -21,7 +22,8 @@ AlterOptions read_options(const JsonView& object);
 // Throws Error{OptionInvalid} with subject "/NAME".
 void set_option(AlterOptions& options, const std::string& name, const std::string& value);
 
-// Every option, sorted by name; an object that read_options takes back.
+// Every option by name; an object that read_options takes back.
+Record options_record(const AlterOptions& options);
 std::string write_options(const AlterOptions& options);
 
 enum class OptionType { Integer, Number, Boolean, Choice, TextList };

@@ -33,7 +33,7 @@ Vec2 furthest(const std::vector<Vec2>& points, const Vec2& direction) {
 
 class Finder {
  public:
-  Finder(const TriangleMesh& body, const Skeleton& skeleton, const BodySlices& slices, const BodyLevels& levels)
+  Finder(const TriangleMesh& body, const Skeleton& skeleton, const BodySlices& slices, const MeasuringLevels& levels)
       : body_(body), s_(skeleton), slices_(slices), levels_(levels), h_(slices.height()) {}
 
   Landmarks run() {
@@ -144,7 +144,7 @@ class Finder {
   const TriangleMesh& body_;
   const Skeleton& s_;
   const BodySlices& slices_;
-  const BodyLevels& levels_;
+  const MeasuringLevels& levels_;
   double h_;
   Landmarks found_;
 };
@@ -152,7 +152,7 @@ class Finder {
 }  // namespace
 
 Landmarks find_landmarks(const TriangleMesh& body, const Skeleton& skeleton, const BodySlices& slices,
-                         const BodyLevels& levels) {
+                         const MeasuringLevels& levels) {
   return Finder(body, skeleton, slices, levels).run();
 }
 

@@ -11,6 +11,6 @@ namespace toile {
 // shoulder, elbow, wrist, bust, waist, hip, knee, ankle (each _l and _r), waist_front, waist_back, neck_front,
 // neck_back, crotch, head_top. Requires levels.crotch and levels.armpit.
 Landmarks find_landmarks(const TriangleMesh& body, const Skeleton& skeleton, const BodySlices& slices,
-                         const BodyLevels& levels);
+                         const MeasuringLevels& levels);
 
 }  // namespace toile

@@ -133,7 +133,7 @@ class Tape {
   BodySlices slices_;
   double h_;
   MeasureBodyResult result_;
-  BodyLevels& levels_ = result_.levels;
+  MeasuringLevels& levels_ = result_.levels;
 };
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace toile {
 
 // Levels that the horizontal measurements are taken at, m over the floor.
-struct BodyLevels {
+struct MeasuringLevels {
   double crotch = 0.0;  // lowest point of the trunk between the legs
   double armpit = 0.0;  // where the arms grow onto the trunk, mean of both
   double chest = 0.0, bust = 0.0, underbust = 0.0, waist = 0.0, hip = 0.0, neck = 0.0, thigh = 0.0, knee = 0.0,
@@ -21,7 +21,7 @@ struct BodyLevels {
 struct MeasureBodyResult {
   Landmarks landmarks;        // the 22 named points, those given unchanged
   Measurements measurements;  // m
-  BodyLevels levels;
+  MeasuringLevels levels;
 };
 
 // `given` landmarks win over found ones and move the levels that hang on them (bust points).
