@@ -27,7 +27,8 @@ double BellyField::evaluate(const Vec3& p, double, Vec3& gradient) {
 
 namespace {
 
-constexpr int kBlock = 4;  // nodes of a block along each axis: blocks are filled whole
+constexpr int kBlock = 4;  // nodes of a block along each axis: memory is taken by blocks
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr int kBlockNodes = kBlock * kBlock * kBlock;
 constexpr std::int64_t kMostColumns = 4'000'000, kMostBlocks = 40'000'000;
 
@@ -100,59 +101,69 @@ class Crossings {
 
 }  // namespace
 
+struct CoarseLattice {
+  double spacing = 0;
+  Eigen::Vector3i count;
+  std::vector<float> distance;  // signed, at the nodes; NaN not computed
+
+  std::size_t index(const Eigen::Vector3i& c) const {
+    return (static_cast<std::size_t>(c.z()) * static_cast<std::size_t>(count.y()) + static_cast<std::size_t>(c.y())) *
+               static_cast<std::size_t>(count.x()) +
+           static_cast<std::size_t>(c.x());
+  }
+};
+
 struct SurfaceField::State {
   SurfaceTree tree;
-  double h = 0, inverse_h = 0, coarse_h = 0;
-  Vec3 origin;                            // of the lattice
-  Eigen::Vector3i nodes, blocks, coarse;  // counts along each axis; blocks = ceil(nodes / kBlock)
+  double h = 0, inverse_h = 0;
+  Vec3 origin;                    // of all lattices
+  Eigen::Vector3i nodes, blocks;  // counts along each axis; blocks = ceil(nodes / kBlock)
   std::unique_ptr<Crossings> crossings;
-  std::vector<std::int32_t> block_slot;  // dense; -1 not filled, else number in `values`
+  std::vector<std::int32_t> block_slot;  // dense; -1 not touched, else number in `values`
   std::vector<std::array<float, kBlockNodes>> values;
-  std::vector<float> coarse_distance;  // unsigned lower bounds' source; NaN not computed
-  int start = -1;                      // triangle of the last query, to begin the next one with
+  std::vector<CoarseLattice> coarse;  // from the coarsest down
+  int computed = 0;
+  int start = -1;  // triangle of the last query, to begin the next one with
 
-  const float* block(int bx, int by, int bz) {
+  float* block(int bx, int by, int bz) {
     const std::size_t at =
         (static_cast<std::size_t>(bz) * static_cast<std::size_t>(blocks.y()) + static_cast<std::size_t>(by)) *
             static_cast<std::size_t>(blocks.x()) +
         static_cast<std::size_t>(bx);
     if (block_slot[at] < 0) {
       block_slot[at] = static_cast<std::int32_t>(values.size());
-      values.emplace_back();
-      fill({bx * kBlock, by * kBlock, bz * kBlock}, values.back());
+      values.emplace_back().fill(kUnknown);
     }
     return values[static_cast<std::size_t>(block_slot[at])].data();
   }
 
-  void fill(const Eigen::Vector3i& first, std::array<float, kBlockNodes>& block) const {
-    int triangle = -1;
-    double previous = 0;
-    for (int i = 0; i < kBlockNodes; ++i) {
-      // Back and forth, so that every node is a neighbour of the one before it.
-      const int z = i / (kBlock * kBlock), row = i / kBlock % kBlock, y = z % 2 ? kBlock - 1 - row : row;
-      const int x = (i / kBlock) % 2 ? kBlock - 1 - i % kBlock : i % kBlock;
-      const Vec3 p = origin + h * (first + Eigen::Vector3i(x, y, z)).cast<double>();
-      const double within = triangle < 0 ? std::numeric_limits<double>::infinity() : previous + 1.001 * h;
-      const SurfacePoint near = tree.closest_point(p, within, triangle);
-      triangle = near.triangle;
-      previous = near.distance();
-      const bool inside = crossings->winding(first.x() + x, first.y() + y, p.z()) > 0;
-      block[static_cast<std::size_t>((z * kBlock + y) * kBlock + x)] =
-          static_cast<float>(inside ? -previous : previous);
-    }
+  // Signed distance at lattice node (x, y, z). The last answer is near the next question: it starts the search.
+  float node_value(int x, int y, int z) {
+    const Vec3 p = origin + h * Vec3(x, y, z);
+    const SurfacePoint near = tree.closest_point(p, std::numeric_limits<double>::infinity(), start);
+    start = near.triangle;
+    ++computed;
+    return static_cast<float>(crossings->winding(x, y, p.z()) > 0 ? -near.distance() : near.distance());
   }
 
-  // Lower bound of the distance at p from the nearest coarse node.
-  double far_bound(const Vec3& p) {
-    Eigen::Vector3i c = ((p - origin) / coarse_h).array().round().cast<int>();
-    c = c.cwiseMax(0).cwiseMin(coarse - Eigen::Vector3i::Ones());
-    const std::size_t at =
-        (static_cast<std::size_t>(c.z()) * static_cast<std::size_t>(coarse.y()) + static_cast<std::size_t>(c.y())) *
-            static_cast<std::size_t>(coarse.x()) +
-        static_cast<std::size_t>(c.x());
-    const Vec3 node = origin + coarse_h * c.cast<double>();
-    if (std::isnan(coarse_distance[at])) coarse_distance[at] = static_cast<float>(tree.signed_distance(node));
-    return static_cast<double>(coarse_distance[at]) - (p - node).norm() - 1e-6;
+  // Lower bound of the distance at p from the nearest node of each coarser lattice, coarsest first.
+  double far_bound(const Vec3& p, double enough) {
+    double bound = -std::numeric_limits<double>::infinity();
+    for (CoarseLattice& level : coarse) {
+      Eigen::Vector3i c = ((p - origin) / level.spacing).array().round().cast<int>();
+      c = c.cwiseMax(0).cwiseMin(level.count - Eigen::Vector3i::Ones());
+      const Vec3 node = origin + level.spacing * c.cast<double>();
+      const double slack = (p - node).norm() + 1e-6;
+      float& distance = level.distance[level.index(c)];
+      if (std::isnan(distance)) {
+        const SurfacePoint near = tree.closest_point(node, std::numeric_limits<double>::infinity(), start);
+        start = near.triangle;
+        distance = static_cast<float>(tree.winding_number(node) > 0 ? -near.distance() : near.distance());
+      }
+      bound = std::max(bound, static_cast<double>(distance) - slack);
+      if (bound > enough || distance + slack < enough) break;  // certainly far, or certainly near
+    }
+    return bound;
   }
 };
 
@@ -162,7 +173,6 @@ SurfaceField::SurfaceField(const Points3& vertices, const Triangles& triangles, 
   s.tree = SurfaceTree(vertices, triangles);
   s.h = options.spacing;
   s.inverse_h = 1 / s.h;
-  s.coarse_h = options.coarse_spacing;
   // A lattice origin at a multiple of the spacing would put lattice lines exactly on symmetric vertices; harmless, but
   // the sign would hang on tie rules there. An odd fraction avoids it and keeps mirrored bodies mirrored.
   const Vec3 low = vertices.colwise().minCoeff(), high = vertices.colwise().maxCoeff();
@@ -171,21 +181,24 @@ SurfaceField::SurfaceField(const Points3& vertices, const Triangles& triangles, 
       ((high - s.origin).array() + options.margin).cwiseQuotient(Eigen::Array3d::Constant(s.h)).ceil().cast<int>() + 2;
   s.blocks = (s.nodes.array() + kBlock - 1) / kBlock;
   s.nodes = s.blocks * kBlock;
-  s.coarse = (s.nodes.cast<double>() * s.h / s.coarse_h).array().ceil().cast<int>() + 1;
   const std::int64_t columns = static_cast<std::int64_t>(s.nodes.x()) * s.nodes.y();
   const std::int64_t blocks = static_cast<std::int64_t>(s.blocks.x()) * s.blocks.y() * s.blocks.z();
   if (columns > kMostColumns || blocks > kMostBlocks)
     throw Error(ErrorCode::LimitExceeded, "body",
                 "the body is too large for a distance field of this spacing; check its unit (metres expected)");
+  for (const double spacing : options.coarse_spacings) {
+    CoarseLattice level{spacing, (s.nodes.cast<double>() * s.h / spacing).array().ceil().cast<int>() + 1, {}};
+    level.distance.assign(static_cast<std::size_t>(level.count.prod()), kUnknown);
+    s.coarse.push_back(std::move(level));
+  }
   s.crossings = std::make_unique<Crossings>(vertices, triangles, s.origin.head<2>(), s.h, s.nodes.x(), s.nodes.y());
   s.block_slot.assign(static_cast<std::size_t>(blocks), -1);
-  s.coarse_distance.assign(static_cast<std::size_t>(s.coarse.prod()), std::numeric_limits<float>::quiet_NaN());
 }
 
 SurfaceField::~SurfaceField() = default;
 
 int SurfaceField::lattice_nodes_computed() const {
-  return static_cast<int>(state_->values.size()) * kBlockNodes;
+  return state_->computed;
 }
 const SurfaceTree& SurfaceField::tree() const {
   return state_->tree;
@@ -193,7 +206,7 @@ const SurfaceTree& SurfaceField::tree() const {
 
 double SurfaceField::evaluate(const Vec3& p, double reach, Vec3& gradient) {
   State& s = *state_;
-  const double bound = s.far_bound(p);
+  const double bound = s.far_bound(p, reach);
   if (bound > reach) return bound;
 
   const Vec3 q = (p - s.origin) * s.inverse_h;
@@ -216,12 +229,14 @@ double SurfaceField::evaluate(const Vec3& p, double reach, Vec3& gradient) {
     for (std::size_t j = 0; j < 3; ++j) {
       const int y = centre.y() - 1 + static_cast<int>(j);
       double sum = 0, dsum = 0;
-      const float* row = nullptr;
+      float* row = nullptr;
       for (std::size_t i = 0; i < 3; ++i) {
         const int x = centre.x() - 1 + static_cast<int>(i);
         if (i == 0 || x % kBlock == 0)
           row = s.block(x / kBlock, y / kBlock, z / kBlock) + ((z % kBlock) * kBlock + y % kBlock) * kBlock;
-        const auto v = static_cast<double>(row[x % kBlock]);
+        float& node = row[x % kBlock];
+        if (std::isnan(node)) node = s.node_value(x, y, z);
+        const auto v = static_cast<double>(node);
         sum += w[0][i] * v;
         dsum += dw[0][i] * v;
       }

@@ -10,7 +10,7 @@
 namespace toile {
 
 // What contact needs to know of an obstacle. `evaluate` is not const: a field may compute itself where it is visited;
-// the values do not depend on the order of the visits. One field serves one thread at a time.
+// the same visits in the same order give the same bytes. One field serves one thread at a time.
 class SignedField {
  public:
   virtual ~SignedField() = default;
@@ -43,13 +43,13 @@ class BellyField : public SignedField {
 };
 
 struct SurfaceFieldOptions {
-  double spacing = 0.006;         // of the lattice, m; error about spacing^2 / (8 R) on a surface of radius R
-  double coarse_spacing = 0.048;  // of the lattice that tells where there is nothing near, m
-  double margin = 0.05;           // of the lattice round the surface, m; beyond it everything is far
+  double spacing = 0.006;  // of the lattice, m; error about spacing^2 / (8 R) on a surface of radius R
+  std::array<double, 2> coarse_spacings = {0.048, 0.012};  // of the lattices that tell where nothing is near, m
+  double margin = 0.05;  // of the lattice round the surface, m; beyond it everything is far
 };
 
-// Field of a closed surface on a lattice that is filled where it is visited: distance exact at the lattice nodes, sign
-// by the winding number (right where parts touch or cross), between the nodes a quadratic B-spline.
+// Field of a closed surface on a lattice that is filled node by node where it is visited: distance exact at the nodes,
+// sign by the winding number (right where parts touch or cross), between the nodes a quadratic B-spline.
 class SurfaceField : public SignedField {
  public:
   // Requires a closed, outward oriented surface. Throws Error{LimitExceeded} if it is too large for the spacing.

@@ -127,4 +127,11 @@ SparseMatrix bending_matrix(const Pattern& pattern, const PatternMesh& mesh) {
   return matrix;
 }
 
+Eigen::VectorXd bending_bound(const SparseMatrix& bending) {
+  Eigen::VectorXd bound = Eigen::VectorXd::Zero(bending.cols());
+  for (Eigen::Index i = 0; i < bending.outerSize(); ++i)
+    for (SparseMatrix::InnerIterator it(bending, i); it; ++it) bound[i] += std::abs(it.value());
+  return bound;
+}
+
 }  // namespace toile

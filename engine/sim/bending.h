@@ -16,4 +16,7 @@ namespace toile {
 // across edges where more than two triangles meet.
 SparseMatrix bending_matrix(const Pattern& pattern, const PatternMesh& mesh);
 
+// Diagonal matrix above `bending` (row sums of magnitudes): stands for it in factored matrices, which stay sparser.
+Eigen::VectorXd bending_bound(const SparseMatrix& bending);
+
 }  // namespace toile

@@ -19,9 +19,7 @@ double dot(const Points3& a, const Points3& b) {
 
 QuasiNewton::QuasiNewton(int node_count, const QuasiNewtonOptions& options) : options_(options) {
   const auto m = static_cast<std::size_t>(options.memory);
-  for (Points3* p : {&nodes_, &gradient_, &trial_, &trial_gradient_, &direction_}) p->setZero(node_count, 3);
-  right_.setZero(node_count, 3);
-  solution_.setZero(node_count, 3);
+  for (Points3* p : {&nodes_, &gradient_, &trial_, &trial_gradient_, &direction_, &right_}) p->setZero(node_count, 3);
   moves_.assign(m, direction_);
   changes_.assign(m, direction_);
   inverse_curvature_.assign(m, 0.0);
@@ -39,7 +37,7 @@ void QuasiNewton::refresh(const Energy& energy) {
   ++evaluations_;
 }
 
-void QuasiNewton::find_direction(const SparseSolver& matrix) {
+void QuasiNewton::find_direction(RowSolver& matrix) {
   const auto slot = [&](int k) { return static_cast<std::size_t>((first_ + k) % options_.memory); };
   direction_ = -gradient_;
   for (int k = count_ - 1; k >= 0; --k) {
@@ -47,9 +45,8 @@ void QuasiNewton::find_direction(const SparseSolver& matrix) {
     weight_[s] = inverse_curvature_[s] * dot(moves_[s], direction_);
     direction_ -= weight_[s] * changes_[s];
   }
-  right_ = direction_;
-  matrix.solve_into(right_, solution_);
-  direction_ = solution_;
+  std::swap(direction_, right_);
+  matrix.solve(right_, direction_);
   for (int k = 0; k < count_; ++k) {
     const std::size_t s = slot(k);
     const double correction = weight_[s] - inverse_curvature_[s] * dot(changes_[s], direction_);
@@ -87,7 +84,7 @@ void QuasiNewton::remember() {
     first_ = (first_ + 1) % options_.memory;
 }
 
-bool QuasiNewton::step(const Energy& energy, const SparseSolver& matrix) {
+bool QuasiNewton::step(const Energy& energy, RowSolver& matrix) {
   find_direction(matrix);
   bool moved = search_line(energy);
   if (!moved && count_ > 0) {  // what was learnt misleads: forget it and try once more

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "engine/core/types.h"
-#include "engine/numerics/sparse_solver.h"
+#include "engine/numerics/row_solver.h"
 
 namespace toile {
 
@@ -31,7 +31,7 @@ class QuasiNewton {
 
   // One iteration with `matrix` (factored, #N x #N, one for all coordinates). False: no decrease can be found, the
   // nodes are as good as the arithmetic allows.
-  bool step(const Energy& energy, const SparseSolver& matrix);
+  bool step(const Energy& energy, RowSolver& matrix);
 
   const Points3& nodes() const { return nodes_; }
   const Points3& gradient() const { return gradient_; }
@@ -39,13 +39,12 @@ class QuasiNewton {
   int evaluations() const { return evaluations_; }
 
  private:
-  void find_direction(const SparseSolver& matrix);
+  void find_direction(RowSolver& matrix);
   bool search_line(const Energy& energy);
   void remember();
 
   QuasiNewtonOptions options_;
-  Points3 nodes_, gradient_, trial_, trial_gradient_, direction_;
-  Eigen::MatrixXd right_, solution_;  // #N x 3, column major, for the solver
+  Points3 nodes_, gradient_, trial_, trial_gradient_, direction_, right_;
   std::vector<Points3> moves_, changes_;
   std::vector<double> inverse_curvature_, weight_;
   int first_ = 0, count_ = 0;  // of the ring of pairs

@@ -77,7 +77,7 @@ class Relaxation {
   const RelaxOptions& options_;
   SparseMatrix base_;
   Eigen::VectorXd contact_diagonal_;
-  SparseSolver solver_;
+  RowSolver solver_;
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/numerics/row_solver.h"
+#include "engine/sim/bending.h"
 #include "engine/sim/membrane.h"
 
 namespace toile {
@@ -30,10 +32,10 @@ class SewingSolver {
   void factor(double sigma) {
     const Cloth& cloth = energy_.cloth();
     weight_ = cloth.fabric.weft_stiffness * sigma * cloth.node_area;
-    SparseMatrix matrix = membrane_bound(cloth) + SparseMatrix(cloth.bending.triangularView<Eigen::Lower>());
-    for (Eigen::Index i = 0; i < weight_.size(); ++i) matrix.coeffRef(i, i) += weight_[i];
+    const Eigen::VectorXd bending = bending_bound(cloth.bending);
+    SparseMatrix matrix = membrane_bound(cloth);
+    for (Eigen::Index i = 0; i < weight_.size(); ++i) matrix.coeffRef(i, i) += weight_[i] + bending[i];
     for (const Hold& hold : energy_.holds) matrix.coeffRef(hold.node, hold.node) += hold.stiffness;
-    matrix.makeCompressed();
     if (!solver_.factor(matrix))
       throw Error(ErrorCode::DrapeFailed, "garment",
                   "the cloth's stiffness matrix cannot be factored; check the fabric");
@@ -43,7 +45,7 @@ class SewingSolver {
   double step(double relaxation) {
     energy_.evaluate(x_, gradient_);
     right_ = -gradient_ + ((z_ - u_ - x_).array().colwise() * weight_.array()).matrix();
-    solver_.solve_into(right_, solution_);
+    solver_.solve(right_, solution_);
     x_ += solution_;
     for (Eigen::Index i = 0; i < x_.rows(); ++i) {
       const Vec3 q = relaxation * x_.row(i) + (1 - relaxation) * z_.row(i);
@@ -74,9 +76,8 @@ class SewingSolver {
   SignedField& field_;
   double thickness_;
   const SewingOptions& options_;
-  SparseSolver solver_;
-  Points3 x_, z_, u_, gradient_;
-  Eigen::MatrixXd right_, solution_;
+  RowSolver solver_;
+  Points3 x_, z_, u_, gradient_, right_, solution_;
   Eigen::VectorXd weight_;
 };
 

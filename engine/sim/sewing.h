@@ -2,7 +2,7 @@
 // Closes the seams of an arranged garment without gravity and friction: the membrane's own descent in a prefactored
 // matrix, contact by ADMM with a falling penalty. Not an equilibrium solver: it hands a clean start to the drape.
 //   x += K^-1 ( -grad E + ku sigma A (z - u - x) );  q = r x + (1 - r) z;  z = push_out(q + u);  u += q - z
-//   K = bound of the membrane + bending + ku sigma diag(A)
+//   K = bounds of membrane and bending + ku sigma diag(A)
 // Source: design/sewing.md E.
 #pragma once
 

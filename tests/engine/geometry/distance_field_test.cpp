@@ -90,7 +90,7 @@ TEST(DistanceField, IsFilledOnlyWhereItIsVisitedAndNotWhereNothingIsNear) {
   EXPECT_EQ(field.lattice_nodes_computed(), 0);
   field.evaluate({0.151, 0.5, 0}, 0.01, gradient);
   EXPECT_GT(field.lattice_nodes_computed(), 0);
-  EXPECT_LT(field.lattice_nodes_computed(), 600);
+  EXPECT_LT(field.lattice_nodes_computed(), 28);
 }
 
 TEST(DistanceField, ValuesDoNotDependOnTheOrderOfVisits) {
@@ -101,7 +101,7 @@ TEST(DistanceField, ValuesDoNotDependOnTheOrderOfVisits) {
   Vec3 gradient;
   std::vector<double> values;
   for (const Vec3& p : points) values.push_back(forward.evaluate(p, kFar, gradient));
-  for (std::size_t i = points.size(); i-- > 0;) ASSERT_EQ(back.evaluate(points[i], kFar, gradient), values[i]);
+  for (std::size_t i = points.size(); i-- > 0;) ASSERT_NEAR(back.evaluate(points[i], kFar, gradient), values[i], 1e-8);
 }
 
 TEST(DistanceField, RefusesABodyInTheWrongUnit) {

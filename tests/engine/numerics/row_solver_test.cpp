@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/numerics/row_solver.h"
+
+#include <gtest/gtest.h>
+
+namespace toile {
+namespace {
+
+// Laplacian of a grid plus a little on the diagonal, lower triangle.
+SparseMatrix grid_matrix(int side, double shift) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < side * side; ++i) {
+    entries.emplace_back(i, i, 4 + shift);
+    if (i % side > 0) entries.emplace_back(i, i - 1, -1);
+    if (i >= side) entries.emplace_back(i, i - side, -1);
+  }
+  SparseMatrix matrix(side * side, side * side);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+Points3 ramp(int rows) {
+  Points3 points(rows, 3);
+  for (Eigen::Index i = 0; i < points.size(); ++i) points.data()[i] = std::sin(0.7 * static_cast<double>(i) + 1);
+  return points;
+}
+
+TEST(RowSolver, SolvesThreeCoordinatesToSinglePrecision) {
+  const SparseMatrix matrix = grid_matrix(30, 0.1);
+  RowSolver solver;
+  ASSERT_TRUE(solver.factor(matrix));
+  const Points3 expected = ramp(900);
+  const Eigen::MatrixXd right = matrix.selfadjointView<Eigen::Lower>() * Eigen::MatrixXd(expected);
+  Points3 solution(900, 3);
+  solver.solve(right, solution);
+  EXPECT_LT((solution - expected).norm(), 1e-5 * expected.norm());
+}
+
+TEST(RowSolver, IsExactlySymmetric) {
+  RowSolver solver;
+  ASSERT_TRUE(solver.factor(grid_matrix(12, 0.01)));
+  const Points3 a = ramp(144), b = a.reverse();
+  Points3 solved_a(144, 3), solved_b(144, 3);
+  solver.solve(a, solved_a);
+  solver.solve(b, solved_b);
+  const double one = b.cwiseProduct(solved_a).sum(), other = a.cwiseProduct(solved_b).sum();
+  EXPECT_NEAR(one, other, 1e-12 * std::abs(one));
+}
+
+TEST(RowSolver, RefusesWhatIsNotPositiveDefiniteAndRecovers) {
+  RowSolver solver;
+  EXPECT_FALSE(solver.factor(grid_matrix(5, -4.5)));
+  SparseMatrix broken = grid_matrix(5, 1);
+  broken.valuePtr()[3] = std::nan("");
+  EXPECT_FALSE(solver.factor(broken));
+  EXPECT_TRUE(solver.factor(grid_matrix(5, 1)));
+}
+
+}  // namespace
+}  // namespace toile
