@@ -73,28 +73,32 @@ void Contact::freeze_friction(const Points3& nodes) {
 }
 
 void Contact::freeze_friction(const Points3& nodes, const Points3& pull, double reach) {
-  frozen_ = options_.friction > 0;
-  anchor_ = nodes;
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
     const Vec3 p = nodes.row(i);
     Vec3 normal;
-    load_[i] = 0;
-    const double sunk =
-        options_.thickness + taken_up_[i] - field_.evaluate(p, options_.thickness + taken_up_[i] + reach, normal);
+    const double kept = options_.thickness + taken_up_[i];
+    const double sunk = kept - field_.evaluate(p, kept + reach, normal);
     if (options_.multipliers) taken_up_[i] = std::max(0.0, sunk);
     known_[static_cast<std::size_t>(i)] = false;
+    const bool held = frozen_ && load_[i] > 0;
+    load_[i] = 0;
     if (sunk <= -reach) continue;
     double slope = 0;
     contact_profile(sunk, options_.linear_beyond, slope);
     const double length = std::max(normal.norm(), kLeastSlope);
+    normal /= length;
     const double pressed = options_.stiffness * cloth_.node_area[i] * slope * length;
-    load_[i] = options_.friction * std::max(pressed, pull.row(i).dot(normal) / length);
-    normal_.row(i) = (normal / length).transpose();
+    load_[i] = options_.friction * std::max(pressed, pull.row(i).dot(normal));
+    normal_.row(i) = normal.transpose();
+    anchor_.row(i) = (held ? dragged_anchor(i, p, normal) : p).transpose();
   }
+  frozen_ = options_.friction > 0;
 }
 
-void Contact::drop_friction() {
-  frozen_ = false;
+Vec3 Contact::dragged_anchor(Eigen::Index i, const Vec3& p, const Vec3& normal) const {
+  const Vec3 moved = p - anchor_.row(i).transpose(), slip = moved - normal * normal.dot(moved);
+  const double length = slip.norm();
+  return p - slip * (length > options_.slip_length ? options_.slip_length / length : 1.0);
 }
 
 void Contact::stiffness_diagonal(Eigen::VectorXd& diagonal) const {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact of cloth with a body, and friction on it. Per node of area A at distance phi from the body:
 //   contact  E = kc A f(t - phi),  f(d) = d^2 / 2 for 0 < d <= d1, linear beyond d1, 0 for d <= 0
-//   friction E = mu N s(|u|), u the tangential move since the last freeze, N the contact force and the tangent plane of
-//            that moment, s(u) = u^2/e - u^3/(3 e^2) below the slip length e and u - e/3 above (lagged Coulomb)
+//   friction E = mu N s(|u|), u the tangential move away from the node's anchor, N the contact force and the tangent
+//            plane of the last freeze, s(u) = u^2/e - u^3/(3 e^2) below the slip length e and u - e/3 above. A freeze
+//            drags the anchors of nodes that have slipped along and leaves those that stick: cloth does not creep.
 // The stiffness is per area: contact depth does not depend on the mesh. Source: design/sewing.md F; the friction
 // profile is that of [Li2020] (incremental potential contact).
 #pragma once
@@ -35,14 +36,14 @@ class Contact {
   // Adds the gradient (#N x 3, N) and returns the energy, J.
   double energy_gradient(const Points3& nodes, Points3& gradient);
 
-  // Takes `nodes` as the place where friction holds them from now on, with the contact forces of this moment.
+  // Takes up the contact forces at `nodes` and drags anchors that are further away than the slip length; nodes newly in
+  // contact are anchored where they are.
   // The energy changes: evaluate again.
   void freeze_friction(const Points3& nodes);
   // The same at a start where contact has not been felt yet: a node within `reach` of the contact thickness presses as
   // hard as `pull`, the gradient of all other energies (#N x 3, N), draws it to the body. Without it a garment starts
   // to slide before its contact forces have built up.
   void freeze_friction(const Points3& nodes, const Points3& pull, double reach);
-  void drop_friction();
 
   // Diagonal of an upper bound of the contact's Hessian at the nodes of the last evaluation, N/m.
   void stiffness_diagonal(Eigen::VectorXd& diagonal) const;
@@ -54,6 +55,8 @@ class Contact {
  private:
   // Distance and gradient at a node, skipped while the node cannot have come into contact since it was last looked up.
   bool near(Eigen::Index i, const Vec3& p, Vec3& normal);
+  // Anchor within the slip length of p, in its tangent plane.
+  Vec3 dragged_anchor(Eigen::Index i, const Vec3& p, const Vec3& normal) const;
   // Depth that counts for the force.
   double depth(Eigen::Index i) const { return options_.thickness - distance_[i] + taken_up_[i]; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/sim/relax.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/core/units.h"
@@ -44,29 +45,60 @@ class Relaxation {
     const QuasiNewton::Energy evaluate = [this](const Points3& x, Points3& g) { return energy_.evaluate(x, g); };
     if (energy_.contact()) freeze_at_start(start);
     minimiser.start(start, evaluate);
-    RelaxResult result;
-    for (; result.iterations < options_.iterations; ++result.iterations) {
-      check_cancelled(progress);
-      result.residual = energy_.residual(minimiser.gradient());
-      if (result.residual < options_.stop_residual) break;
-      if (result.iterations > 0 && result.iterations % options_.round == 0 && energy_.contact()) {
-        energy_.contact()->freeze_friction(minimiser.nodes());
-        minimiser.refresh(evaluate);
-      }
-      if (result.iterations % options_.refactor == 0) factor(minimiser.nodes());
-      if (!minimiser.step(evaluate, solver_)) {
-        result.stalled = true;
-        break;
-      }
+    watched_ = watched_means(start);
+    while (result_.iterations < options_.iterations && !done()) {
+      report(progress, "drape", static_cast<double>(result_.iterations) / options_.iterations);
+      const bool whole = run_round(minimiser, evaluate, progress);
+      if (energy_.contact()) energy_.contact()->freeze_friction(minimiser.nodes());
+      minimiser.refresh(evaluate);
+      judge(minimiser, whole);
     }
-    result.nodes = minimiser.nodes();
-    result.energy = minimiser.energy();
-    result.residual = energy_.residual(minimiser.gradient());
-    result.evaluations = minimiser.evaluations();
-    return result;
+    result_.nodes = minimiser.nodes();
+    result_.energy = minimiser.energy();
+    result_.evaluations = minimiser.evaluations();
+    return result_;
   }
 
  private:
+  bool done() const { return result_.converged || result_.stalled || (options_.stop_settled && result_.settled); }
+
+  // Iterations with friction as it stands; false if the residual was reached before the round was over.
+  bool run_round(QuasiNewton& minimiser, const QuasiNewton::Energy& evaluate, Progress* progress) {
+    for (int i = 0; i < options_.round && result_.iterations < options_.iterations; ++i) {
+      check_cancelled(progress);
+      if (energy_.residual(minimiser.gradient()) < options_.stop_residual) return false;
+      if (result_.iterations % options_.refactor == 0) factor(minimiser.nodes());
+      ++result_.iterations;
+      if (!minimiser.step(evaluate, solver_)) {
+        result_.stalled = true;
+        return false;
+      }
+    }
+    return true;
+  }
+
+  void judge(const QuasiNewton& minimiser, bool whole_round) {
+    result_.residual = energy_.residual(minimiser.gradient());
+    result_.converged = result_.residual < options_.stop_residual;
+    if (!whole_round) return;
+    const std::vector<Vec3> means = watched_means(minimiser.nodes());
+    result_.last_move = 0;
+    for (std::size_t k = 0; k < means.size(); ++k)
+      result_.last_move = std::max(result_.last_move, (means[k] - watched_[k]).norm());
+    watched_ = means;
+    result_.settled = result_.iterations >= options_.least_iterations && result_.residual < options_.settled_residual &&
+                      result_.last_move < options_.settled_move;
+  }
+
+  std::vector<Vec3> watched_means(const Points3& nodes) const {
+    std::vector<Vec3> means;
+    for (const std::vector<int>& line : options_.watched) {
+      means.push_back(Vec3::Zero());
+      for (int n : line) means.back() += nodes.row(n).transpose() / static_cast<double>(line.size());
+    }
+    return means;
+  }
+
   void freeze_at_start(const Points3& start) {
     Points3 pull = Points3::Zero(start.rows(), 3);
     membrane_energy_gradient(energy_.cloth(), start, pull);
@@ -78,6 +110,8 @@ class Relaxation {
   SparseMatrix base_;
   Eigen::VectorXd contact_diagonal_;
   RowSolver solver_;
+  std::vector<Vec3> watched_;
+  RelaxResult result_;
 };
 
 }  // namespace

@@ -10,20 +10,28 @@
 namespace toile {
 
 struct RelaxOptions {
-  int iterations = 800;        // at most, over all rounds
-  int round = 200;             // iterations after which friction is frozen anew
-  int refactor = 100;          // iterations after which the matrix takes up the present contacts
-  double stop_residual = 0.3;  // of a mean node weight (DrapeEnergy::residual)
+  int iterations = 1500;          // at most, over all rounds
+  int round = 100;                // iterations after which friction is frozen anew and the settling is looked at
+  int refactor = 100;             // iterations after which the matrix takes up the present contacts
+  double stop_residual = 0.3;     // of a mean node weight (DrapeEnergy::residual), with friction just frozen
+  double settled_residual = 3.0;  // below it and without movement the drape counts as settled
+  double settled_move = 0.001;    // m a watched line may move over a round and still count as settled
+  bool stop_settled = false;      // stop there
+  int least_iterations = 300;     // before it may count as settled: below, even placement is not settled
+  std::vector<std::vector<int>> watched;  // lines of nodes whose mean position tells whether the garment still moves
   QuasiNewtonOptions quasi_newton;
 };
 
 struct RelaxResult {
-  Points3 nodes;          // #N x 3
-  double residual = 0.0;  // see DrapeEnergy::residual
-  double energy = 0.0;    // J
+  Points3 nodes;           // #N x 3
+  double residual = 0.0;   // see DrapeEnergy::residual
+  double last_move = 0.0;  // largest move of a watched line over the last full round, m
+  double energy = 0.0;     // J
   int iterations = 0;
   int evaluations = 0;
-  bool stalled = false;  // the line search found no further decrease
+  bool converged = false;  // stop_residual reached with friction just frozen
+  bool settled = false;    // settled_residual and settled_move reached over a full round
+  bool stalled = false;    // the line search found no further decrease
 };
 
 RelaxResult relax(DrapeEnergy& energy, const Points3& start, const RelaxOptions& options, Progress* progress);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace toile {
 namespace {
@@ -259,6 +260,15 @@ class Arranger {
   ArrangeResult result_;
 };
 
+std::vector<std::vector<bool>> sewn_edges(const Pattern& pattern) {
+  std::vector<std::vector<bool>> sewn;
+  for (const Panel& panel : pattern.panels) sewn.emplace_back(panel.edges.size(), false);
+  for (const Seam& seam : pattern.seams)
+    for (const SeamSide& side : {seam.a, seam.b})
+      sewn[static_cast<std::size_t>(side.panel.value)][static_cast<std::size_t>(side.edge)] = true;
+  return sewn;
+}
+
 }  // namespace
 
 Points3 placed_vertices(const Pattern& pattern, const PatternMesh& mesh) {
@@ -281,6 +291,35 @@ Points3 welded(const PatternMesh& mesh, const Points3& vertices) {
   return nodes.array().colwise() / count.array();
 }
 
+std::vector<std::vector<int>> free_lines(const Pattern& pattern, const PatternMesh& mesh) {
+  const std::vector<std::vector<bool>> sewn = sewn_edges(pattern);
+  std::vector<int> line_of(static_cast<std::size_t>(mesh.node_count), -1);
+  const auto root = [&](int node) {
+    while (line_of[static_cast<std::size_t>(node)] != node) node = line_of[static_cast<std::size_t>(node)];
+    return node;
+  };
+  for (std::size_t p = 0; p < sewn.size(); ++p)
+    for (std::size_t e = 0; e < sewn[p].size(); ++e) {
+      if (sewn[p][e]) continue;
+      int last = -1;
+      for (int v : mesh.edge_vertices[p][e]) {
+        const int node = mesh.node_of_vertex[static_cast<std::size_t>(v)];
+        if (line_of[static_cast<std::size_t>(node)] < 0) line_of[static_cast<std::size_t>(node)] = node;
+        if (last >= 0) {
+          const auto [low, high] = std::minmax({root(last), root(node)});
+          line_of[static_cast<std::size_t>(high)] = low;
+        }
+        last = node;
+      }
+    }
+  std::map<int, std::vector<int>> lines;
+  for (int node = 0; node < mesh.node_count; ++node)
+    if (line_of[static_cast<std::size_t>(node)] >= 0) lines[root(node)].push_back(node);
+  std::vector<std::vector<int>> result;
+  for (auto& [first, line] : lines) result.push_back(std::move(line));
+  return result;
+}
+
 std::vector<int> waist_nodes(const Pattern& pattern, const PatternMesh& mesh, const Points3& vertices) {
   std::vector<int> nodes;
   const auto add_edge = [&](const std::vector<int>& edge) {
@@ -290,11 +329,7 @@ std::vector<int> waist_nodes(const Pattern& pattern, const PatternMesh& mesh, co
     for (std::size_t e = 0; e < pattern.panels[p].edges.size(); ++e)
       if (pattern.panels[p].edges[e].label == "lower_interface") add_edge(mesh.edge_vertices[p][e]);
   if (nodes.empty()) {
-    std::vector<std::vector<bool>> sewn;
-    for (const Panel& panel : pattern.panels) sewn.emplace_back(panel.edges.size(), false);
-    for (const Seam& seam : pattern.seams)
-      for (const SeamSide& side : {seam.a, seam.b})
-        sewn[static_cast<std::size_t>(side.panel.value)][static_cast<std::size_t>(side.edge)] = true;
+    const std::vector<std::vector<bool>> sewn = sewn_edges(pattern);
     const auto height = [&](const std::vector<int>& edge) {
       double sum = 0;
       for (int v : edge) sum += vertices(v, 1) / static_cast<double>(edge.size());

@@ -31,6 +31,9 @@ Points3 welded(const PatternMesh& mesh, const Points3& vertices);
 // Nodes of the edges labelled lower_interface; without any, of the highest unsewn edges.
 std::vector<int> waist_nodes(const Pattern& pattern, const PatternMesh& mesh, const Points3& vertices);
 
+// The garment's openings: nodes of its unsewn edges, one list for each connected line (hems, neckline, cuffs, waist).
+std::vector<std::vector<int>> free_lines(const Pattern& pattern, const PatternMesh& mesh);
+
 // `levels`: of the body that the placement belongs to; the same as `guides.levels` on the garment's own body.
 ArrangeResult arrange_panels(const Pattern& pattern, const PatternMesh& mesh, const GarmentClass& garment,
                              const BodyGuides& guides, const BodyLevels& levels, SignedField& field,

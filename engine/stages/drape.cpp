@@ -93,10 +93,11 @@ class Draper {
       result_.drape.nodes = start;
     else
       relax_from(start);
-    const double residual = result_.diagnostics.residual;
+    const DrapeQuality solved = result_.quality;
     result_.quality = measure_drape(mesh_, field_->tree(), result_.drape);
-    result_.quality.residual = residual;
-    result_.quality.rest = residual < 0.3 ? Rest::Converged : Rest::NotAtRest;
+    result_.quality.rest = solved.rest;
+    result_.quality.residual = solved.residual;
+    result_.quality.settling_move = solved.settling_move;
     report(progress_, "drape", 1);
     return result_;
   }
@@ -113,14 +114,17 @@ class Draper {
     RelaxOptions relax_options;
     relax_options.iterations = options_.iterations;
     relax_options.stop_residual = options_.stop_residual;
+    relax_options.watched = free_lines(pattern_, mesh_);
     const RelaxResult relaxed = relax(energy, start, relax_options, progress_);
     result_.drape.nodes = relaxed.nodes;
     DrapeDiagnostics& d = result_.diagnostics;
     d.iterations = relaxed.iterations;
     d.evaluations = relaxed.evaluations;
     d.energy = relaxed.energy;
-    d.residual = relaxed.residual;
     d.stalled = relaxed.stalled;
+    result_.quality.residual = relaxed.residual;
+    result_.quality.settling_move = relaxed.last_move;
+    result_.quality.rest = relaxed.converged ? Rest::Converged : relaxed.settled ? Rest::Settled : Rest::NotAtRest;
   }
 
   const Pattern& pattern_;

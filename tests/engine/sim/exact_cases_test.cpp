@@ -167,10 +167,10 @@ TEST(ExactDrape, CantileverStripSagsLikeTheHeavyElastica) {
       if (mesh.rest(v, 0) < (clamped + 0.5) * cell) energy.pins.push_back({v, start.row(v), 1e5});
     }
     RelaxOptions options = tight();
-    options.stop_residual = 2e-3;
+    options.stop_residual = 5e-3;
     const RelaxResult result = relax(energy, start, options, nullptr);
     const double exact = elastica_sag(pattern.fabric.bending_stiffness, 0.2 * kGravity, overhang);
-    EXPECT_LT(result.residual, 2e-3);
+    EXPECT_LT(result.residual, 5e-3);
     EXPECT_NEAR(-result.nodes.col(1).minCoeff() / exact, 1, 0.02) << overhang << " m, exact sag " << exact;
   }
 }
