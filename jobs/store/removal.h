@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Taking things away for good: on request, and by age. Freed database pages are zeroed, the log is emptied, files are
+// removed: afterwards no byte of what was deleted is left in the data folder.
+#pragma once
+
+#include "jobs/store/artifact_store.h"
+#include "jobs/store/input_store.h"
+
+namespace toile {
+
+struct RemovalCounts {
+  int jobs = 0;
+  int inputs = 0;
+  int stages = 0;
+};
+
+class Removal {
+ public:
+  Removal(Database& database, ArtifactStore& artifacts, Clock clock);
+
+  // The input, the jobs that use it (running ones lose their lease), their artifacts, the stages made from it.
+  // Throws Error{NotFound}.
+  RemovalCounts remove_input(const std::string& tenant, InputKind kind, const std::string& id);
+  // Jobs that ended before `before_ms`; then inputs from before it without label that no job uses.
+  RemovalCounts remove_older_than(std::int64_t before_ms);
+  // Forgets Idempotency-Keys from before `before_ms`.
+  void forget_idempotency(std::int64_t before_ms);
+
+ private:
+  void remove_job(Transaction& transaction, const std::string& id);
+  RemovalCounts remove_input_rows(Transaction& transaction, const std::string& id);
+  void wipe();
+
+  Database& database_;
+  ArtifactStore& artifacts_;
+  Clock clock_;
+};
+
+}  // namespace toile
