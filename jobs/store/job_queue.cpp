@@ -86,6 +86,11 @@ std::string JobQueue::enqueue(Transaction& transaction, const NewJob& job) {
   return id;
 }
 
+bool JobQueue::is_ended(Transaction& transaction, const std::string& job) {
+  Statement row = transaction->query("SELECT 1 FROM jobs WHERE id = ? AND finished_ms IS NOT NULL", job);
+  return row.step();
+}
+
 std::optional<std::string> JobQueue::next_ready(Transaction& transaction, std::int64_t now) {
   transaction->run("UPDATE claims SET count = count + 1");
   std::int64_t count = 0;

@@ -67,6 +67,9 @@ class JobQueue {
   // Throws Error{QueueFull}; Error{NotFound} with subject "/<role>" for an input the tenant does not own.
   std::string enqueue(Transaction& transaction, const NewJob& job);
 
+  // Whether a job of this transaction has ended already, by reuse of known results.
+  static bool is_ended(Transaction& transaction, const std::string& job);
+
   // The next job in line, leased to `worker`; nothing when none is due.
   std::optional<Job> claim(const std::string& worker);
   // Renews leases and stores progress; one answer per report.
