@@ -99,7 +99,9 @@ void ArtifactStore::remove_orphans(std::int64_t older_than_ms) {
   }
 }
 
-fs::path ArtifactStore::path_of(const std::string& sha256) const { return blobs_ / sha256; }
+fs::path ArtifactStore::path_of(const std::string& sha256) const {
+  return blobs_ / sha256;
+}
 
 Bytes ArtifactStore::read(const std::string& sha256) const {
   Bytes bytes = read_whole_file(path_of(sha256));

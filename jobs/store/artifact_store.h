@@ -27,7 +27,8 @@ class ArtifactStore {
   void release(Transaction& transaction, const std::string& sha256);
   // Removes the files of released content from the disk; after the transaction.
   void empty_trash();
-  // Removes leftovers of killed processes: files without a row, and temporary files, last touched before `older_than_ms`.
+  // Removes leftovers of killed processes: files without a row, and temporary files, last touched before
+  // `older_than_ms`.
   void remove_orphans(std::int64_t older_than_ms);
 
   std::filesystem::path path_of(const std::string& sha256) const;

@@ -11,7 +11,7 @@ namespace {
 #define TOILE_BATCH_COLUMNS "seq, id, tenant, options, labels, garment, reference_body, created_ms"
 
 Batch batch_of_row(const Statement& row) {
-  return {row.integer(0), row.text(1), row.text(2),          row.text(3), words_of_json(row.text(4)),
+  return {row.integer(0), row.text(1),          row.text(2),   row.text(3), words_of_json(row.text(4)),
           row.text(5),    row.optional_text(6), row.integer(7)};
 }
 
@@ -20,7 +20,8 @@ Batch batch_of_row(const Statement& row) {
 std::string add_batch(Transaction& transaction, const Batch& batch, std::int64_t now_ms) {
   const std::string id = random_identifier("batch");
   transaction->run(
-      "INSERT INTO batches(id, tenant, options, labels, garment, reference_body, created_ms) VALUES (?, ?, ?, ?, ?, ?, ?)",
+      "INSERT INTO batches(id, tenant, options, labels, garment, reference_body, created_ms) VALUES (?, ?, ?, ?, ?, ?, "
+      "?)",
       id, batch.tenant, batch.options, json_of_words(batch.labels), batch.garment, batch.reference_body, now_ms);
   return id;
 }

@@ -39,7 +39,9 @@ std::optional<Input> with_labels(Connection& connection, Statement rows) {
 
 }  // namespace
 
-std::string_view kind_name(InputKind kind) { return kind == InputKind::Body ? "body" : "garment"; }
+std::string_view kind_name(InputKind kind) {
+  return kind == InputKind::Body ? "body" : "garment";
+}
 
 InputStore::InputStore(Database& database, ArtifactStore& artifacts, Clock clock)
     : database_(database), artifacts_(artifacts), clock_(std::move(clock)) {}
@@ -51,9 +53,9 @@ std::string InputStore::identity(const NewInput& input, const std::string& sha25
 
 std::optional<Input> InputStore::find_equal(const NewInput& input, const std::string& sha256) {
   Reader reader(database_);
-  return with_labels(*reader.operator->(),
-                     reader->query("SELECT " TOILE_INPUT_COLUMNS " FROM inputs WHERE tenant = ? AND kind = ? AND identity = ?",
-                                   input.tenant, kind_name(input.kind), identity(input, sha256)));
+  return with_labels(*reader.operator->(), reader->query("SELECT " TOILE_INPUT_COLUMNS
+                                                         " FROM inputs WHERE tenant = ? AND kind = ? AND identity = ?",
+                                                         input.tenant, kind_name(input.kind), identity(input, sha256)));
 }
 
 std::pair<Input, bool> InputStore::add(Transaction& transaction, const NewInput& input, const PreparedBlob& blob) {
@@ -78,8 +80,9 @@ std::pair<Input, bool> InputStore::add(Transaction& transaction, const NewInput&
 
 std::optional<Input> InputStore::find(const std::string& tenant, const std::string& id) const {
   Reader reader(database_);
-  return with_labels(*reader.operator->(),
-                     reader->query("SELECT " TOILE_INPUT_COLUMNS " FROM inputs WHERE tenant = ? AND id = ?", tenant, id));
+  return with_labels(
+      *reader.operator->(),
+      reader->query("SELECT " TOILE_INPUT_COLUMNS " FROM inputs WHERE tenant = ? AND id = ?", tenant, id));
 }
 
 std::optional<Input> InputStore::find(const std::string& tenant, InputKind kind, const std::string& id) const {

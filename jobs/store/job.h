@@ -15,7 +15,9 @@ namespace toile {
 enum class JobState { Queued, Running, Succeeded, Failed, Cancelled };
 std::string_view state_name(JobState state);
 JobState state_of_name(std::string_view name);
-inline bool is_final(JobState state) { return state != JobState::Queued && state != JobState::Running; }
+inline bool is_final(JobState state) {
+  return state != JobState::Queued && state != JobState::Running;
+}
 
 enum class Priority { Interactive = 0, Batch = 1 };
 
@@ -44,9 +46,9 @@ struct Job {
   std::string tenant;
   std::string kind;
   JobState state = JobState::Queued;
-  int attempt = 0;      // fencing token: number of the current or last lease
-  int crashes = 0;      // times its process ended by a fault of its own
-  int version = 1;      // grows with every change
+  int attempt = 0;  // fencing token: number of the current or last lease
+  int crashes = 0;  // times its process ended by a fault of its own
+  int version = 1;  // grows with every change
   bool cancel_requested = false;
   std::string stage;      // name of the running stage, or empty
   double progress = 0.0;  // 0..1 of the whole job

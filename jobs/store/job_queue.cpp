@@ -18,8 +18,7 @@ std::string identity_of(Transaction& transaction, const NewJob& job, const std::
   hash.add(std::string_view(engine_version)).add(std::string_view(job.kind)).add(std::string_view(job.options));
   for (const auto& [role, id] : job.inputs) {
     Statement row = transaction->query("SELECT identity FROM inputs WHERE id = ? AND tenant = ?", id, job.tenant);
-    if (!row.step())
-      throw Error(ErrorCode::NotFound, "/" + role, "no " + role + " with this id: upload it first");
+    if (!row.step()) throw Error(ErrorCode::NotFound, "/" + role, "no " + role + " with this id: upload it first");
     const std::string identity = row.text(0);
     hash.add(std::string_view(role)).add(std::string_view(identity));
   }
@@ -53,8 +52,8 @@ void copy_results(Transaction& transaction, const std::string& job, const std::s
       " summary = (SELECT summary FROM jobs WHERE id = ?3), timings = (SELECT timings FROM jobs WHERE id = ?3)"
       " WHERE id = ?2",
       now, job, twin);
-  transaction->run(
-      "INSERT INTO artifacts SELECT ?1, name, content_type, sha256, size FROM artifacts WHERE job_id = ?2", job, twin);
+  transaction->run("INSERT INTO artifacts SELECT ?1, name, content_type, sha256, size FROM artifacts WHERE job_id = ?2",
+                   job, twin);
   tell_webhook(transaction, job, now);
 }
 
@@ -131,8 +130,7 @@ std::optional<Job> JobQueue::claim(const std::string& worker) {
       worker, now + options_.lease_ms, now, *id);
   Job job;
   {
-    Statement row =
-        transaction->query((std::string("SELECT ") + kJobColumns + " FROM jobs WHERE id = ?").c_str(), *id);
+    Statement row = transaction->query((std::string("SELECT ") + kJobColumns + " FROM jobs WHERE id = ?").c_str(), *id);
     row.step();
     job = job_of_row(row);
   }
@@ -162,8 +160,9 @@ std::vector<LeaseState> JobQueue::look(std::span<const Lease> leases) {
   if (leases.empty()) return states;
   Reader reader(database_);
   for (const Lease& lease : leases) {
-    Statement row = reader->query(
-        "SELECT cancel_requested FROM jobs WHERE id = ? AND attempt = ? AND state = 'running'", lease.job, lease.attempt);
+    Statement row =
+        reader->query("SELECT cancel_requested FROM jobs WHERE id = ? AND attempt = ? AND state = 'running'", lease.job,
+                      lease.attempt);
     if (!row.step())
       states.push_back(LeaseState::Lost);
     else
@@ -218,9 +217,9 @@ bool JobQueue::finish(const Lease& lease, const Outcome& outcome) {
       case Outcome::Kind::Succeeded:
         for (const NewArtifact& artifact : outcome.artifacts) {
           artifacts_.adopt(transaction, artifact.blob);
-          transaction->run(
-              "INSERT INTO artifacts(job_id, name, content_type, sha256, size) VALUES (?, ?, ?, ?, ?)", lease.job,
-              artifact.name, artifact.content_type, artifact.blob.sha256(), artifact.blob.size());
+          transaction->run("INSERT INTO artifacts(job_id, name, content_type, sha256, size) VALUES (?, ?, ?, ?, ?)",
+                           lease.job, artifact.name, artifact.content_type, artifact.blob.sha256(),
+                           artifact.blob.size());
         }
         end(transaction, lease.job, JobState::Succeeded, outcome);
         break;

@@ -11,15 +11,17 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kStateNames = {"queued", "running", "succeeded", "failed", "cancelled"};
 
-#define TOILE_JOB_COLUMNS                                                                                            \
-  "seq, id, tenant, kind, state, attempt, crashes, version, cancel_requested, stage, progress, options, labels, "    \
+#define TOILE_JOB_COLUMNS                                                                                         \
+  "seq, id, tenant, kind, state, attempt, crashes, version, cancel_requested, stage, progress, options, labels, " \
   "batch_id, created_ms, started_ms, finished_ms, error_code, error_subject, error_message, summary, timings"
 
 }  // namespace
 
 const char* const kJobColumns = TOILE_JOB_COLUMNS;
 
-std::string_view state_name(JobState state) { return kStateNames[static_cast<std::size_t>(state)]; }
+std::string_view state_name(JobState state) {
+  return kStateNames[static_cast<std::size_t>(state)];
+}
 
 JobState state_of_name(std::string_view name) {
   for (std::size_t i = 0; i < kStateNames.size(); ++i)
@@ -61,8 +63,7 @@ std::optional<Job> JobReader::find(const std::string& tenant, const std::string&
   Reader reader(database_);
   std::optional<Job> job;
   {
-    Statement row =
-        reader->query("SELECT " TOILE_JOB_COLUMNS " FROM jobs WHERE id = ? AND tenant = ?", id, tenant);
+    Statement row = reader->query("SELECT " TOILE_JOB_COLUMNS " FROM jobs WHERE id = ? AND tenant = ?", id, tenant);
     if (row.step()) job = job_of_row(row);
   }
   if (job) read_job_inputs(*reader.operator->(), *job);
@@ -75,12 +76,12 @@ std::vector<Job> JobReader::list(const std::string& tenant, const JobFilter& fil
   {
     const std::optional<std::string> state =
         filter.state ? std::optional(std::string(state_name(*filter.state))) : std::nullopt;
-    Statement rows = reader->query(
-        "SELECT " TOILE_JOB_COLUMNS
-        " FROM jobs WHERE tenant = ?1 AND (?2 = 0 OR seq < ?2) AND (?3 IS NULL OR state = ?3)"
-        " AND (?4 IS NULL OR EXISTS (SELECT 1 FROM json_each(labels) WHERE value = ?4))"
-        " AND (?5 IS NULL OR batch_id = ?5) ORDER BY seq DESC LIMIT ?6",
-        tenant, filter.before, state, filter.label, filter.batch, filter.limit);
+    Statement rows =
+        reader->query("SELECT " TOILE_JOB_COLUMNS
+                      " FROM jobs WHERE tenant = ?1 AND (?2 = 0 OR seq < ?2) AND (?3 IS NULL OR state = ?3)"
+                      " AND (?4 IS NULL OR EXISTS (SELECT 1 FROM json_each(labels) WHERE value = ?4))"
+                      " AND (?5 IS NULL OR batch_id = ?5) ORDER BY seq DESC LIMIT ?6",
+                      tenant, filter.before, state, filter.label, filter.batch, filter.limit);
     while (rows.step()) jobs.push_back(job_of_row(rows));
   }
   for (Job& job : jobs) read_job_inputs(*reader.operator->(), job);
@@ -98,8 +99,8 @@ std::vector<ArtifactRecord> JobReader::artifacts(const std::string& job) const {
 
 std::optional<ArtifactRecord> JobReader::artifact(const std::string& job, const std::string& name) const {
   Reader reader(database_);
-  Statement row = reader->query(
-      "SELECT name, content_type, sha256, size FROM artifacts WHERE job_id = ? AND name = ?", job, name);
+  Statement row =
+      reader->query("SELECT name, content_type, sha256, size FROM artifacts WHERE job_id = ? AND name = ?", job, name);
   if (!row.step()) return std::nullopt;
   return ArtifactRecord{row.text(0), row.text(1), row.text(2), row.integer(3)};
 }

@@ -5,7 +5,9 @@
 
 namespace toile {
 
-std::string json_of_words(const std::vector<std::string>& words) { return nlohmann::json(words).dump(); }
+std::string json_of_words(const std::vector<std::string>& words) {
+  return nlohmann::json(words).dump();
+}
 
 std::vector<std::string> words_of_json(const std::string& text) {
   const auto list = nlohmann::json::parse(text, nullptr, false);

@@ -90,11 +90,12 @@ RemovalCounts Removal::remove_older_than(std::int64_t before_ms) {
     transaction->run(
         "DELETE FROM batches WHERE created_ms < ? AND NOT EXISTS (SELECT 1 FROM jobs WHERE batch_id = batches.id)",
         before_ms);
-    const auto inputs = column(*transaction,
-                               "SELECT id FROM inputs WHERE created_ms < ? AND id NOT IN (SELECT input_id FROM input_labels)"
-                               " AND id NOT IN (SELECT input_id FROM job_inputs) AND id NOT IN (SELECT garment FROM batches)"
-                               " AND id NOT IN (SELECT reference_body FROM batches WHERE reference_body IS NOT NULL)",
-                               before_ms);
+    const auto inputs =
+        column(*transaction,
+               "SELECT id FROM inputs WHERE created_ms < ? AND id NOT IN (SELECT input_id FROM input_labels)"
+               " AND id NOT IN (SELECT input_id FROM job_inputs) AND id NOT IN (SELECT garment FROM batches)"
+               " AND id NOT IN (SELECT reference_body FROM batches WHERE reference_body IS NOT NULL)",
+               before_ms);
     for (const std::string& input : inputs) {
       counts.stages += remove_input_rows(transaction, input).stages;
       ++counts.inputs;

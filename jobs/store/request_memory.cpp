@@ -5,8 +5,8 @@ namespace toile {
 
 std::optional<RememberedRequest> recall_request(Database& database, const std::string& tenant, const std::string& key) {
   Reader reader(database);
-  Statement row = reader->query(
-      "SELECT request_hash, status, resource FROM idempotency WHERE tenant = ? AND key = ?", tenant, key);
+  Statement row =
+      reader->query("SELECT request_hash, status, resource FROM idempotency WHERE tenant = ? AND key = ?", tenant, key);
   if (!row.step()) return std::nullopt;
   return RememberedRequest{row.text(0), static_cast<int>(row.integer(1)), row.text(2)};
 }

@@ -43,9 +43,15 @@ bool Statement::step() {
   return false;
 }
 
-bool Statement::is_null(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_NULL; }
-std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(statement_, column); }
-double Statement::real(int column) const { return sqlite3_column_double(statement_, column); }
+bool Statement::is_null(int column) const {
+  return sqlite3_column_type(statement_, column) == SQLITE_NULL;
+}
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_, column);
+}
+double Statement::real(int column) const {
+  return sqlite3_column_double(statement_, column);
+}
 
 std::string Statement::text(int column) const {
   const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
@@ -60,17 +66,23 @@ std::optional<std::string> Statement::optional_text(int column) const {
   return is_null(column) ? std::nullopt : std::optional(text(column));
 }
 
-void Statement::bind(int index, std::nullptr_t) { sqlite3_bind_null(statement_, index); }
-void Statement::bind(int index, std::int64_t value) { sqlite3_bind_int64(statement_, index, value); }
-void Statement::bind(int index, double value) { sqlite3_bind_double(statement_, index, value); }
+void Statement::bind(int index, std::nullptr_t) {
+  sqlite3_bind_null(statement_, index);
+}
+void Statement::bind(int index, std::int64_t value) {
+  sqlite3_bind_int64(statement_, index, value);
+}
+void Statement::bind(int index, double value) {
+  sqlite3_bind_double(statement_, index, value);
+}
 void Statement::bind(int index, std::string_view value) {
   const char* bytes = value.data() ? value.data() : "";
   sqlite3_bind_text(statement_, index, bytes, static_cast<int>(value.size()), SQLITE_TRANSIENT);
 }
 
 Connection::Connection(const std::filesystem::path& file, Access access) {
-  const int flags =
-      SQLITE_OPEN_NOMUTEX | (access == Access::ReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  const int flags = SQLITE_OPEN_NOMUTEX |
+                    (access == Access::ReadOnly ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
   const int code = sqlite3_open_v2(file.c_str(), &handle_, flags, nullptr);
   if (code != SQLITE_OK) {
     const std::string message = handle_ ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
@@ -102,6 +114,8 @@ sqlite3_stmt* Connection::prepared(const char* sql) {
   return statement;
 }
 
-std::int64_t Connection::changed_rows() const { return sqlite3_changes64(handle_); }
+std::int64_t Connection::changed_rows() const {
+  return sqlite3_changes64(handle_);
+}
 
 }  // namespace toile

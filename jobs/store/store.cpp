@@ -58,7 +58,8 @@ std::vector<WorkerStatus> Store::workers() {
   std::vector<WorkerStatus> list;
   Statement rows = reader->query("SELECT name, seen_ms, slots, running FROM workers ORDER BY name");
   while (rows.step())
-    list.push_back({rows.text(0), rows.integer(1), static_cast<int>(rows.integer(2)), static_cast<int>(rows.integer(3))});
+    list.push_back(
+        {rows.text(0), rows.integer(1), static_cast<int>(rows.integer(2)), static_cast<int>(rows.integer(3))});
   return list;
 }
 

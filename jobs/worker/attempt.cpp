@@ -21,7 +21,8 @@ constexpr std::size_t kStderrTail = 400;  // characters of a crashed job's last 
 // The working folder of one attempt; gone with it.
 class Scratch {
  public:
-  Scratch(const fs::path& root, const Lease& lease) : folder_(root / (lease.job + "-" + std::to_string(lease.attempt))) {
+  Scratch(const fs::path& root, const Lease& lease)
+      : folder_(root / (lease.job + "-" + std::to_string(lease.attempt))) {
     std::error_code error;
     fs::remove_all(folder_, error);
     if (!fs::create_directory(folder_, error))
@@ -76,7 +77,8 @@ class Attempt {
     for (const auto& [role, id] : job_.inputs) {
       const std::optional<Input> input = store_.inputs.find(job_.tenant, id);
       if (!input) throw Error(ErrorCode::NotFound, "/" + role, "the " + role + " was deleted");
-      request.inputs[role] = {fs::absolute(store_.artifacts.path_of(input->sha256)).string(), input->name, input->fields};
+      request.inputs[role] = {fs::absolute(store_.artifacts.path_of(input->sha256)).string(), input->name,
+                              input->fields};
     }
     return request;
   }
@@ -103,8 +105,8 @@ class Attempt {
     std::vector<std::string> sources;
     for (const auto& [role, id] : job_.inputs) sources.push_back(id);
     try {
-      store_.stages.add(StageStore::tenant_key(job_.tenant, event.name), prepare_existing(scratch_.folder() / event.file),
-                        sources);
+      store_.stages.add(StageStore::tenant_key(job_.tenant, event.name),
+                        prepare_existing(scratch_.folder() / event.file), sources);
     } catch (const Error&) {
       // A stage that could not be kept is computed again next time.
     }

@@ -13,9 +13,9 @@ namespace toile {
 struct AttemptOptions {
   std::vector<std::string> command;  // the program that calls run_job(), absolute
   ChildLimits limits;
-  int wall_s = 7200;           // seconds a job may take in all, > 0
-  int threads = 1;             // of one job
-  int cancel_grace_ms = 600;   // between asking a job to end and killing it
+  int wall_s = 7200;          // seconds a job may take in all, > 0
+  int threads = 1;            // of one job
+  int cancel_grace_ms = 600;  // between asking a job to end and killing it
 };
 
 // What the monitor thread and the attempt tell each other.

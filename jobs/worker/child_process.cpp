@@ -153,7 +153,9 @@ ChildEnd ChildProcess::wait() {
   ChildEnd end;
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
   if (WIFEXITED(status)) end.exit_code = WEXITSTATUS(status);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   end.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   end.peak_memory_bytes = static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
   return end;

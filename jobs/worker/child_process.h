@@ -17,7 +17,7 @@ struct ChildLimits {
 };
 
 struct ChildEnd {
-  int signal = 0;      // 0: it exited
+  int signal = 0;  // 0: it exited
   int exit_code = 0;
   double cpu_s = 0.0;
   std::int64_t peak_memory_bytes = 0;

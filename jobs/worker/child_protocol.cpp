@@ -13,10 +13,13 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::array<const char*, 6> kEventNames = {"progress", "find_stage", "keep_stage", "artifact", "done", "failed"};
+constexpr std::array<const char*, 6> kEventNames = {"progress", "find_stage", "keep_stage",
+                                                    "artifact", "done",       "failed"};
 
 // Text from libraries may not be UTF-8.
-std::string dump(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+std::string dump(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
 
 ChildEvent event_of(const json& value) {
   ChildEvent event;

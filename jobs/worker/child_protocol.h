@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The talk between a worker and the child process that runs one job: JSON, one message a line. The child reads its
-// request and replies from standard input and writes to kEventDescriptor. Files are named relative to the scratch folder.
+// request and replies from standard input and writes to kEventDescriptor. Files are named relative to the scratch
+// folder.
 #pragma once
 
 #include <cstdint>
@@ -31,10 +32,10 @@ struct JobRequest {
 
 struct ChildEvent {
   enum class Kind { Progress, FindStage, KeepStage, Artifact, Done, Failed } kind = Kind::Progress;
-  std::string name;          // stage of Progress; key of FindStage, KeepStage; name of Artifact
-  double fraction = 0.0;     // Progress
-  std::string file;          // KeepStage, Artifact
-  std::string content_type;  // Artifact
+  std::string name;              // stage of Progress; key of FindStage, KeepStage; name of Artifact
+  double fraction = 0.0;         // Progress
+  std::string file;              // KeepStage, Artifact
+  std::string content_type;      // Artifact
   std::string summary, timings;  // Done
   JobError error;                // Failed
 };

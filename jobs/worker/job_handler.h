@@ -18,15 +18,14 @@ struct JobInput {
   Bytes bytes;
 };
 
-using ArtifactSink =
-    std::function<void(const std::string& name, const std::string& content_type, const Bytes& bytes)>;
+using ArtifactSink = std::function<void(const std::string& name, const std::string& content_type, const Bytes& bytes)>;
 
 struct JobContext {
   std::map<std::string, JobInput> inputs;  // by role: garment, reference_body, target_body
   std::string options = "{}";              // JSON, validated when the job was handed in
   std::int64_t created_ms = 0;             // dates in outputs come from here, not from the clock
   int threads = 1;
-  ArtifactSink artifact;                   // names: letters, digits, '.', '_', '-'; each at most once
+  ArtifactSink artifact;  // names: letters, digits, '.', '_', '-'; each at most once
   StageCache* stages = nullptr;
   Progress* progress = nullptr;
 };

@@ -11,7 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path folder_of(const Store& store) { return store.data / "workers"; }
+fs::path folder_of(const Store& store) {
+  return store.data / "workers";
+}
 
 }  // namespace
 

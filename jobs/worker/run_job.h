@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The child's side of a job: reads the request, runs the handler, writes artifacts into the working folder and tells how
-// it ended. This is the only place of the service where engine errors are caught.
+// The child's side of a job: reads the request, runs the handler, writes artifacts into the working folder and tells
+// how it ended. This is the only place of the service where engine errors are caught.
 #pragma once
 
 #include <atomic>

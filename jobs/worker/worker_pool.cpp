@@ -14,11 +14,11 @@ namespace {
 using Steady = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kIdleWait{250};      // other processes' announcements are not heard: look that often
-constexpr milliseconds kLookEvery{150};     // for cancellations and lost leases
+constexpr milliseconds kIdleWait{250};       // other processes' announcements are not heard: look that often
+constexpr milliseconds kLookEvery{150};      // for cancellations and lost leases
 constexpr milliseconds kProgressEvery{500};  // between writes of progress
 constexpr milliseconds kRecoverEvery{2000};
-constexpr milliseconds kErrorWait{1000};    // after a failure of the storage
+constexpr milliseconds kErrorWait{1000};  // after a failure of the storage
 
 // Calls `act` when `every` has passed since the last time.
 class Ticker {
@@ -74,7 +74,9 @@ WorkerPool::WorkerPool(Store& store, WorkerPoolOptions options, EventLog log)
   keeper_ = std::thread([this] { keep_leases(); });
 }
 
-WorkerPool::~WorkerPool() { drain(); }
+WorkerPool::~WorkerPool() {
+  drain();
+}
 
 void WorkerPool::drain() {
   {
@@ -201,9 +203,7 @@ void WorkerPool::look_for_changes() {
 
 void WorkerPool::keep_leases() {
   Ticker heartbeat(milliseconds(options_.heartbeat_ms)), progress(kProgressEvery), recover(kRecoverEvery);
-  const auto note = [&] {
-    store_.note_worker({name_, 0, options_.workers, static_cast<int>(running().size())});
-  };
+  const auto note = [&] { store_.note_worker({name_, 0, options_.workers, static_cast<int>(running().size())}); };
   const auto recover_jobs = [&] {
     for (const std::string& dead : bury_dead_workers(store_)) store_.queue.give_back_jobs_of(dead);
     store_.queue.recover_expired();

@@ -13,11 +13,11 @@
 namespace toile {
 
 struct WorkerPoolOptions {
-  int workers = 1;                     // jobs at a time, >= 1
+  int workers = 1;  // jobs at a time, >= 1
   AttemptOptions attempt;
-  std::int64_t heartbeat_ms = 5000;    // between renewals of the leases; far below QueueOptions::lease_ms
-  std::int64_t lease_ms = 30000;       // as QueueOptions: without a renewal for so long a job is given up
-  std::int64_t drain_ms = 25000;       // what running jobs may still take after drain() before they go back to the queue
+  std::int64_t heartbeat_ms = 5000;  // between renewals of the leases; far below QueueOptions::lease_ms
+  std::int64_t lease_ms = 30000;     // as QueueOptions: without a renewal for so long a job is given up
+  std::int64_t drain_ms = 25000;     // what running jobs may still take after drain() before they go back to the queue
 };
 
 // One line of the log: an event's name and its JSON details.

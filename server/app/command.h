@@ -26,5 +26,8 @@ void add_body_command(CLI::App& app, Context& context);
 void add_check_command(CLI::App& app, Context& context);
 void add_drape_command(CLI::App& app, Context& context);
 void add_version_command(CLI::App& app, Context& context);
+void add_serve_command(CLI::App& app, Context& context);
+void add_work_command(CLI::App& app, Context& context);
+void add_run_job_command(CLI::App& app, Context& context);
 
 }  // namespace toile::app

@@ -74,6 +74,9 @@ int main(int argc, char** argv) {
   app::add_check_command(app, context);
   app::add_drape_command(app, context);
   app::add_version_command(app, context);
+  app::add_serve_command(app, context);
+  app::add_work_command(app, context);
+  app::add_run_job_command(app, context);
 
   try {
     app.parse(argc, argv);

@@ -12,9 +12,8 @@ namespace toile::http {
 namespace {
 
 bool is_sha256(const std::string& text) {
-  return text.size() == 64 && std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
-         });
+  return text.size() == 64 &&
+         std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
 }
 
 }  // namespace
@@ -32,8 +31,7 @@ ApiKeys ApiKeys::parse(const std::string& text) {
                   "each line is a tenant and the SHA-256 of its key: TENANT 64-HEX-DIGITS");
     keys.tenant_of_hash_[hash] = tenant;
   }
-  if (keys.open())
-    throw Error(ErrorCode::OptionInvalid, "api-keys", "the file holds no key: nobody could come in");
+  if (keys.open()) throw Error(ErrorCode::OptionInvalid, "api-keys", "the file holds no key: nobody could come in");
   return keys;
 }
 

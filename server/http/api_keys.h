@@ -12,7 +12,8 @@ class ApiKeys {
  public:
   // Without keys everybody is the tenant `default`.
   ApiKeys() = default;
-  // Lines `TENANT SHA256`; empty lines and lines with `#` in front are skipped. Throws Error{OptionInvalid} with the line.
+  // Lines `TENANT SHA256`; empty lines and lines with `#` in front are skipped. Throws Error{OptionInvalid} with the
+  // line.
   static ApiKeys parse(const std::string& text);
 
   bool open() const { return tenant_of_hash_.empty(); }

@@ -21,7 +21,8 @@ Response list(Service& service, const Request& request) {
   require_job(service, request);
   const std::string& id = request.path_value("id");
   nlohmann::ordered_json items = nlohmann::ordered_json::array();
-  for (const ArtifactRecord& artifact : service.store.jobs.artifacts(id)) items.push_back(artifact_document(id, artifact));
+  for (const ArtifactRecord& artifact : service.store.jobs.artifacts(id))
+    items.push_back(artifact_document(id, artifact));
   return json_response(200, list_document(std::move(items), ""));
 }
 

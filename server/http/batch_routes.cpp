@@ -77,9 +77,8 @@ std::string store_batch(Service& service, Transaction& transaction, const BatchR
     NewJob job;
     job.tenant = request.batch.tenant;
     job.kind = "alter";
-    job.inputs = {{"garment", request.batch.garment},
-                  {"reference_body", *request.batch.reference_body},
-                  {"target_body", body}};
+    job.inputs = {
+        {"garment", request.batch.garment}, {"reference_body", *request.batch.reference_body}, {"target_body", body}};
     job.options = request.batch.options;
     job.labels = request.batch.labels;
     job.webhook = request.webhook;
@@ -190,9 +189,8 @@ Response list(Service& service, const Request& request) {
   const auto batches = list_batches(service.store.database, request.tenant, page.before, page.limit);
   ordered_json items = ordered_json::array();
   for (const Batch& batch : batches) items.push_back(batch_document(service, batch));
-  return json_response(
-      200, list_document(std::move(items), next_link(request, batches.size(), page.limit,
-                                                     batches.empty() ? 0 : batches.back().sequence)));
+  return json_response(200, list_document(std::move(items), next_link(request, batches.size(), page.limit,
+                                                                      batches.empty() ? 0 : batches.back().sequence)));
 }
 
 }  // namespace
@@ -200,9 +198,8 @@ Response list(Service& service, const Request& request) {
 void add_batch_routes(Service& service) {
   service.router.add({"POST", "/v1/batches", [&service](Request& r) { return create(service, r); }});
   service.router.add({"GET", "/v1/batches", [&service](Request& r) { return list(service, r); }});
-  service.router.add({"GET", "/v1/batches/{id}", [&service](Request& r) {
-                        return whole_batch(service, 200, r.tenant, r.path_value("id"));
-                      }});
+  service.router.add({"GET", "/v1/batches/{id}",
+                      [&service](Request& r) { return whole_batch(service, 200, r.tenant, r.path_value("id")); }});
 }
 
 }  // namespace toile::http

@@ -183,7 +183,8 @@ void ConnectionHub::dispatch(Connection& connection) {
 void ConnectionHub::refuse(Connection& connection, const Problem& problem) {
   const std::string text = refuse_(problem, connection);
   // A refusal fits into any socket buffer; a client that reads nothing loses it.
-  [[maybe_unused]] const ssize_t sent = ::send(connection.socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  [[maybe_unused]] const ssize_t sent =
+      ::send(connection.socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   ::shutdown(connection.socket, SHUT_WR);
   connection.state = Connection::State::Lingering;
   connection.deadline = Steady::now() + limits_.linger_time;

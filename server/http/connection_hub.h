@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Connections between requests. One thread waits for the heads (and short bodies) of all of them, so that slow or silent
-// clients hold no worker thread; complete requests go to a pool of workers.
+// Connections between requests. One thread waits for the heads (and short bodies) of all of them, so that slow or
+// silent clients hold no worker thread; complete requests go to a pool of workers.
 #pragma once
 
 #include <atomic>
@@ -18,12 +18,12 @@ namespace toile::http {
 
 struct HubLimits {
   HeadLimits head;
-  int workers = 32;                       // requests answered at a time
-  std::size_t connections = 512;          // beyond it the longest waiting one is closed
-  std::int64_t short_body = 64 << 10;     // bodies up to here are awaited before a worker is taken
-  std::chrono::seconds head_time{10};     // from the first byte of a request to its end (short bodies included)
-  std::chrono::seconds idle_time{30};     // between requests
-  std::chrono::seconds linger_time{2};    // after a refusal, for the client to read it
+  int workers = 32;                     // requests answered at a time
+  std::size_t connections = 512;        // beyond it the longest waiting one is closed
+  std::int64_t short_body = 64 << 10;   // bodies up to here are awaited before a worker is taken
+  std::chrono::seconds head_time{10};   // from the first byte of a request to its end (short bodies included)
+  std::chrono::seconds idle_time{30};   // between requests
+  std::chrono::seconds linger_time{2};  // after a refusal, for the client to read it
 };
 
 struct Connection {
@@ -41,7 +41,8 @@ struct Connection {
 
 class ConnectionHub {
  public:
-  // `serve` answers one request and says whether the connection may be used again. `refuse` makes the text of a refusal.
+  // `serve` answers one request and says whether the connection may be used again. `refuse` makes the text of a
+  // refusal.
   ConnectionHub(HubLimits limits, std::function<bool(Connection&)> serve,
                 std::function<std::string(const Problem&, const Connection&)> refuse);
   ~ConnectionHub();

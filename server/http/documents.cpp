@@ -21,7 +21,9 @@ constexpr int kMaxDepth = 64;
 constexpr int kMaxPage = 200;
 constexpr std::size_t kMaxLabels = 50, kMaxLabelBytes = 100;
 
-ordered_json time_or_null(const std::optional<std::int64_t>& ms) { return ms ? ordered_json(iso_time(*ms)) : ordered_json(); }
+ordered_json time_or_null(const std::optional<std::int64_t>& ms) {
+  return ms ? ordered_json(iso_time(*ms)) : ordered_json();
+}
 
 ordered_json parsed(const std::optional<std::string>& text) {
   return text ? ordered_json::parse(*text, nullptr, false) : ordered_json();
@@ -33,7 +35,8 @@ int number_of(const Request& request, const std::string& name, int fallback, int
   int value = 0;
   const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
   if (error != std::errc() || end != text->data() + text->size() || value < low || value > high)
-    throw invalid(name, "`" + name + "` must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+    throw invalid(name,
+                  "`" + name + "` must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
   return value;
 }
 
@@ -41,10 +44,14 @@ bool too_deep(const std::string& text) {
   int depth = 0;
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (quoted && text[i] == '\\') ++i;
-    else if (text[i] == '"') quoted = !quoted;
-    else if (!quoted && (text[i] == '[' || text[i] == '{') && ++depth > kMaxDepth) return true;
-    else if (!quoted && (text[i] == ']' || text[i] == '}')) --depth;
+    if (quoted && text[i] == '\\')
+      ++i;
+    else if (text[i] == '"')
+      quoted = !quoted;
+    else if (!quoted && (text[i] == '[' || text[i] == '{') && ++depth > kMaxDepth)
+      return true;
+    else if (!quoted && (text[i] == ']' || text[i] == '}'))
+      --depth;
   }
   return false;
 }
@@ -62,7 +69,9 @@ std::string iso_time(std::int64_t ms) {
   return std::string(text.data(), length) + fraction.data();
 }
 
-std::string quoted_tag(const std::string& value) { return std::string(1, '"').append(value).append(1, '"'); }
+std::string quoted_tag(const std::string& value) {
+  return std::string(1, '"').append(value).append(1, '"');
+}
 
 ordered_json input_document(const Input& input) {
   const std::string kind(kind_name(input.kind));
@@ -98,10 +107,10 @@ ordered_json job_document(const Job& job) {
   document["created_at"] = iso_time(job.created_ms);
   document["started_at"] = time_or_null(job.started_ms);
   document["finished_at"] = time_or_null(job.finished_ms);
-  document["error"] = job.error ? ordered_json{{"code", job.error->code},
-                                               {"subject", job.error->subject},
-                                               {"message", job.error->message}}
-                                : ordered_json();
+  document["error"] =
+      job.error
+          ? ordered_json{{"code", job.error->code}, {"subject", job.error->subject}, {"message", job.error->message}}
+          : ordered_json();
   document["result"] = parsed(job.summary);
   document["timings"] = parsed(job.timings);
   document["links"] = {{"self", self}, {"events", self + "/events"}, {"artifacts", self + "/artifacts"}};

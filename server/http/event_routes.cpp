@@ -12,8 +12,8 @@ namespace toile::http {
 
 namespace {
 
-constexpr double kSilence = 15.0;        // seconds after which a comment keeps the connection open
-constexpr double kLongest = 15 * 60.0;   // seconds of one stream; clients come back by themselves
+constexpr double kSilence = 15.0;       // seconds after which a comment keeps the connection open
+constexpr double kLongest = 15 * 60.0;  // seconds of one stream; clients come back by themselves
 
 int last_event(const Request& request) {
   std::string text = request.header("Last-Event-ID");
@@ -28,7 +28,8 @@ std::string event_text(const Job& job) {
          "\ndata: " + text_of(job_document(job)) + "\n\n";
 }
 
-void stream_events(Service& service, const std::string& tenant, const std::string& id, int seen, const StreamSink& sink) {
+void stream_events(Service& service, const std::string& tenant, const std::string& id, int seen,
+                   const StreamSink& sink) {
   const Seat seat(service.waiting, service.options.max_waiting);
   const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(kLongest);
   if (!seat || !sink("retry: 1000\n\n")) return;
@@ -52,10 +53,10 @@ Response events(Service& service, const Request& request) {
   const int seen = last_event(request);
   if (!service.store.jobs.find(tenant, id)) throw not_found("job");
   if (request.parameter("wait")) {
-    const Job job = wait_for_job(service, tenant, id, wait_seconds(service, request), [&](const Job& now) {
-      return now.version > seen || is_final(now.state);
-    });
-    return json_response(200, text_of({{"id", job.version}, {"event", state_name(job.state)}, {"data", job_document(job)}}));
+    const Job job = wait_for_job(service, tenant, id, wait_seconds(service, request),
+                                 [&](const Job& now) { return now.version > seen || is_final(now.state); });
+    return json_response(200,
+                         text_of({{"id", job.version}, {"event", state_name(job.state)}, {"data", job_document(job)}}));
   }
   // A stream takes one place for itself and one for its looking: refuse early rather than end at once.
   if (service.waiting.load() + 2 > service.options.max_waiting)
@@ -63,7 +64,9 @@ Response events(Service& service, const Request& request) {
   Response response;
   response.content_type = "text/event-stream";
   response.with("Cache-Control", "no-store");
-  response.stream = [&service, tenant, id, seen](const StreamSink& sink) { stream_events(service, tenant, id, seen, sink); };
+  response.stream = [&service, tenant, id, seen](const StreamSink& sink) {
+    stream_events(service, tenant, id, seen, sink);
+  };
   return response;
 }
 

@@ -59,7 +59,8 @@ void check_request_line(std::string_view line, const HeadLimits& limits) {
 void take_length(std::string_view value, Head& head, bool& seen) {
   std::int64_t length = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), length);
-  const bool digits = !value.empty() && std::all_of(value.begin(), value.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool digits =
+      !value.empty() && std::all_of(value.begin(), value.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (!digits || error != std::errc() || end != value.data() + value.size() || seen)
     throw refuse(400, "bad_content_length", "Content-Length must be given once, as a decimal number");
   seen = true;
@@ -86,7 +87,7 @@ HeadResult parse(std::string_view head_text, const HeadLimits& limits) {
   check_request_line(head_text.substr(0, begin), limits);
   bool length_seen = false;
   std::size_t count = 0;
-  for (begin += 2;; ) {
+  for (begin += 2;;) {
     const std::size_t end = head_text.find("\r\n", begin);
     const std::string_view line = head_text.substr(begin, end - begin);
     begin = end + 2;
@@ -108,7 +109,8 @@ HeadResult examine_head(std::string_view bytes, const HeadLimits& limits) {
   try {
     if (end != std::string_view::npos) return parse(bytes.substr(0, end + 4), limits);
     if (bytes.size() > limits.head_bytes)
-      throw refuse(431, "headers_too_large", "the header is larger than " + std::to_string(limits.head_bytes) + " bytes");
+      throw refuse(431, "headers_too_large",
+                   "the header is larger than " + std::to_string(limits.head_bytes) + " bytes");
     if (static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), '\n')) > limits.headers + 1)
       throw refuse(431, "too_many_headers", "too many header fields");
   } catch (const Problem& problem) {

@@ -14,7 +14,7 @@ struct HeadLimits {
 };
 
 struct Head {
-  std::size_t size = 0;             // bytes of the head, blank line included
+  std::size_t size = 0;  // bytes of the head, blank line included
   std::int64_t content_length = 0;
   bool expects_continue = false;
 };

@@ -23,7 +23,8 @@ Idempotency::Idempotency(Service& service, const Request& request, const std::st
   {
     const std::lock_guard lock(in_flight_lock);
     if (!in_flight.emplace(tenant_, key_).second)
-      throw Problem{409, "conflict", "a request with this Idempotency-Key is being worked on", {}, {{"Retry-After", "1"}}};
+      throw Problem{
+          409, "conflict", "a request with this Idempotency-Key is being worked on", {}, {{"Retry-After", "1"}}};
     held_ = true;
   }
   remembered_ = recall_request(service.store.database, tenant_, key_);

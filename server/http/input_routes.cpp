@@ -37,9 +37,8 @@ Response list(Service& service, const Request& request, InputKind kind) {
       service.store.inputs.list(request.tenant, kind, {request.parameter("label"), page.before, page.limit});
   nlohmann::ordered_json items = nlohmann::ordered_json::array();
   for (const Input& input : inputs) items.push_back(input_document(input));
-  return json_response(
-      200, list_document(std::move(items),
-                         next_link(request, inputs.size(), page.limit, inputs.empty() ? 0 : inputs.back().sequence)));
+  return json_response(200, list_document(std::move(items), next_link(request, inputs.size(), page.limit,
+                                                                      inputs.empty() ? 0 : inputs.back().sequence)));
 }
 
 Response remove(Service& service, const Request& request, InputKind kind) {

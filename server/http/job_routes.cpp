@@ -70,16 +70,16 @@ Response list(Service& service, const Request& request) {
   const auto jobs = service.store.jobs.list(request.tenant, filter);
   nlohmann::ordered_json items = nlohmann::ordered_json::array();
   for (const Job& job : jobs) items.push_back(job_document(job));
-  return json_response(
-      200, list_document(std::move(items),
-                         next_link(request, jobs.size(), page.limit, jobs.empty() ? 0 : jobs.back().sequence)));
+  return json_response(200, list_document(std::move(items), next_link(request, jobs.size(), page.limit,
+                                                                      jobs.empty() ? 0 : jobs.back().sequence)));
 }
 
 Response cancel(Service& service, const Request& request) {
   const std::string& id = request.path_value("id");
   service.store.queue.cancel(request.tenant, id);
   constexpr double kPatience = 1.5;  // a running job ends within a second
-  const Job job = wait_for_job(service, request.tenant, id, kPatience, [](const Job& seen) { return is_final(seen.state); });
+  const Job job =
+      wait_for_job(service, request.tenant, id, kPatience, [](const Job& seen) { return is_final(seen.state); });
   return job_response(is_final(job.state) ? 200 : 202, job);
 }
 

@@ -23,6 +23,9 @@ constexpr int kWriteIdleMs = 20000;           // a reader that takes nothing for
 constexpr std::int64_t kBodySlackMs = 30000;  // a body may take so long plus its size at the slowest rate
 constexpr std::int64_t kSlowestRate = 32;     // bytes per millisecond
 
+// The library would take multipart bodies apart in memory by itself: it is not shown that a body is one.
+constexpr const char* kHiddenType = "X-Toile-Content-Type";
+
 bool ready(int socket, short events, int timeout_ms) {
   struct pollfd wanted = {socket, events, 0};
   int result = 0;
@@ -36,7 +39,8 @@ class ConnectionStream : public httplib::Stream {
  public:
   explicit ConnectionStream(Connection& connection)
       : connection_(connection),
-        deadline_(Steady::now() + std::chrono::milliseconds(kBodySlackMs + connection.head.content_length / kSlowestRate)) {}
+        deadline_(Steady::now() +
+                  std::chrono::milliseconds(kBodySlackMs + connection.head.content_length / kSlowestRate)) {}
 
   bool is_readable() const override { return true; }
   bool is_writable() const override { return ready(connection_.socket, POLLOUT, kWriteIdleMs); }
@@ -92,7 +96,8 @@ Request request_of(const httplib::Request& given) {
   const std::size_t question = given.target.find('?');
   request.path = given.target.substr(0, question);
   if (question != std::string::npos) request.query = parse_query(std::string_view(given.target).substr(question + 1));
-  for (const auto& [name, value] : given.headers) request.headers.emplace(name, value);
+  for (const auto& [name, value] : given.headers)
+    request.headers.emplace(name == kHiddenType ? "Content-Type" : name, value);
   request.content_length = static_cast<std::int64_t>(given.get_header_value<std::uint64_t>("Content-Length"));
   request.remote = given.remote_addr;
   return request;
@@ -139,11 +144,13 @@ struct LibraryServer::Implementation : httplib::Server {
 
   Implementation(HubLimits limits, Answer answer_, std::function<void(const Problem&, const std::string&)> observe)
       : answer(std::move(answer_)),
-        hub(limits, [this](Connection& connection) { return serve(connection); },
+        hub(
+            limits, [this](Connection& connection) { return serve(connection); },
             [observe](const Problem& problem, const Connection& connection) {
               observe(problem, connection.remote);
               const Response response = problem_response(problem, "");
-              std::string text = "HTTP/1.1 " + std::to_string(problem.status) + " " + reason_phrase(problem.status) + "\r\n";
+              std::string text =
+                  "HTTP/1.1 " + std::to_string(problem.status) + " " + reason_phrase(problem.status) + "\r\n";
               for (const auto& [name, value] : response.headers) text += name + ": " + value + "\r\n";
               return text + "Content-Type: application/problem+json\r\nConnection: close\r\nContent-Length: " +
                      std::to_string(response.body.size()) + "\r\n\r\n" + response.body;
@@ -184,6 +191,10 @@ struct LibraryServer::Implementation : httplib::Server {
     bool closed = false;
     const bool answered = process_request(stream, false, closed, [](httplib::Request& request) {
       request.headers.erase("Accept-Encoding");  // answers go out as they are stored: an ETag names those bytes
+      request.headers.erase(kHiddenType);
+      const std::string type = request.get_header_value("Content-Type");
+      request.headers.erase("Content-Type");
+      request.headers.emplace(kHiddenType, type);
     });
     stream.drop_consumed();
     return answered && !closed && stream.at_end_of_request();
@@ -200,14 +211,18 @@ LibraryServer::LibraryServer(HubLimits limits, Answer answer,
 LibraryServer::~LibraryServer() = default;
 
 int LibraryServer::bind(const std::string& host, int port) {
-  const int bound = port == 0 ? implementation_->bind_to_any_port(host) : implementation_->bind_to_port(host, port) ? port : -1;
+  const int bound = port == 0                                   ? implementation_->bind_to_any_port(host)
+                    : implementation_->bind_to_port(host, port) ? port
+                                                                : -1;
   if (bound <= 0)
     throw Error(ErrorCode::BadUsage, host + ":" + std::to_string(port),
                 "cannot listen there: is another server running? choose another --port");
   return bound;
 }
 
-void LibraryServer::run() { implementation_->listen_after_bind(); }
+void LibraryServer::run() {
+  implementation_->listen_after_bind();
+}
 
 void LibraryServer::stop() {
   implementation_->stop();

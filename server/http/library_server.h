@@ -14,7 +14,8 @@ class LibraryServer {
  public:
   using Answer = std::function<Response(Request&)>;
   // `observe` is told about refusals made before a request was read.
-  LibraryServer(HubLimits limits, Answer answer, std::function<void(const Problem&, const std::string& remote)> observe);
+  LibraryServer(HubLimits limits, Answer answer,
+                std::function<void(const Problem&, const std::string& remote)> observe);
   ~LibraryServer();
 
   // Binds; port 0 takes a free one. Answers the port. Throws Error{BadUsage}: the address is taken or not ours.

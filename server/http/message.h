@@ -22,13 +22,13 @@ struct CaseBlind {
 using BodyReceiver = std::function<bool(std::span<const std::uint8_t>)>;
 
 struct Request {
-  std::string method;                                      // GET, HEAD, POST, DELETE
-  std::string path;                                        // without query, not decoded
-  std::map<std::string, std::string> query;                // decoded
+  std::string method;                        // GET, HEAD, POST, DELETE
+  std::string path;                          // without query, not decoded
+  std::map<std::string, std::string> query;  // decoded
   std::map<std::string, std::string, CaseBlind> headers;
-  std::map<std::string, std::string> path_values;          // "{id}" of the route -> its text
+  std::map<std::string, std::string> path_values;  // "{id}" of the route -> its text
   std::int64_t content_length = 0;
-  std::function<bool(const BodyReceiver&)> read_body;      // once; false when the sender broke off or was stopped
+  std::function<bool(const BodyReceiver&)> read_body;  // once; false when the sender broke off or was stopped
   std::string request_id;
   std::string tenant;
   std::string remote;
@@ -46,8 +46,8 @@ struct Response {
   std::string content_type;
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
-  std::optional<std::filesystem::path> file;        // sent instead of `body`
-  std::function<void(const StreamSink&)> stream;    // sent instead of both, until it returns
+  std::optional<std::filesystem::path> file;      // sent instead of `body`
+  std::function<void(const StreamSink&)> stream;  // sent instead of both, until it returns
 
   Response& with(std::string name, std::string value) {
     headers.emplace_back(std::move(name), std::move(value));

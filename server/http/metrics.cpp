@@ -29,10 +29,11 @@ std::string Metrics::text() const {
   std::ostringstream out;
   out << "# HELP toile_http_requests_total Requests answered.\n# TYPE toile_http_requests_total counter\n";
   for (const auto& [key, count] : requests_)
-    out << "toile_http_requests_total{method=\"" << std::get<0>(key) << "\",route=\"" << std::get<1>(key) << "\",status=\""
-        << std::get<2>(key) << "\"} " << count << '\n';
+    out << "toile_http_requests_total{method=\"" << std::get<0>(key) << "\",route=\"" << std::get<1>(key)
+        << "\",status=\"" << std::get<2>(key) << "\"} " << count << '\n';
   out << "# HELP toile_http_refusals_total Requests refused at the door.\n# TYPE toile_http_refusals_total counter\n";
-  for (const auto& [code, count] : refusals_) out << "toile_http_refusals_total{code=\"" << code << "\"} " << count << '\n';
+  for (const auto& [code, count] : refusals_)
+    out << "toile_http_refusals_total{code=\"" << code << "\"} " << count << '\n';
   out << "# HELP toile_http_request_seconds Time to answer.\n# TYPE toile_http_request_seconds histogram\n";
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < kBounds.size(); ++i) {
@@ -40,8 +41,8 @@ std::string Metrics::text() const {
     out << "toile_http_request_seconds_bucket{le=\"" << kBounds[i] << "\"} " << sum << '\n';
   }
   sum += durations_.back();
-  out << "toile_http_request_seconds_bucket{le=\"+Inf\"} " << sum << "\ntoile_http_request_seconds_sum " << total_seconds_
-      << "\ntoile_http_request_seconds_count " << sum << '\n';
+  out << "toile_http_request_seconds_bucket{le=\"+Inf\"} " << sum << "\ntoile_http_request_seconds_sum "
+      << total_seconds_ << "\ntoile_http_request_seconds_count " << sum << '\n';
   out << "# HELP toile_webhooks_total Webhook deliveries tried.\n# TYPE toile_webhooks_total counter\n"
       << "toile_webhooks_total{delivered=\"false\"} " << webhooks_[0] << "\ntoile_webhooks_total{delivered=\"true\"} "
       << webhooks_[1] << '\n';

@@ -68,7 +68,8 @@ bool MultipartReader::step() {
     case State::Preamble:
     case State::Body: {
       const std::size_t found = buffer_.find(delimiter_);
-      const std::size_t safe = found != std::string::npos ? found : buffer_.size() - std::min(buffer_.size(), delimiter_.size());
+      const std::size_t safe =
+          found != std::string::npos ? found : buffer_.size() - std::min(buffer_.size(), delimiter_.size());
       if (state_ == State::Body && safe > 0)
         on_bytes_(std::span(reinterpret_cast<const std::uint8_t*>(buffer_.data()), safe));
       buffer_.erase(0, found != std::string::npos ? found + delimiter_.size() : safe);
@@ -104,9 +105,10 @@ std::string multipart_boundary(std::string_view content_type) {
   value = value.substr(0, value.find(';'));
   if (value.size() >= 2 && value.front() == '"' && value.back() == '"') value = value.substr(1, value.size() - 2);
   constexpr std::string_view kMarks = "'()+_,-./:=? ";
-  const bool legal = !value.empty() && value.size() <= 70 && std::all_of(value.begin(), value.end(), [&](unsigned char c) {
-    return (c < 128 && std::isalnum(c) != 0) || kMarks.find(static_cast<char>(c)) != std::string_view::npos;
-  });
+  const bool legal =
+      !value.empty() && value.size() <= 70 && std::all_of(value.begin(), value.end(), [&](unsigned char c) {
+        return (c < 128 && std::isalnum(c) != 0) || kMarks.find(static_cast<char>(c)) != std::string_view::npos;
+      });
   return legal ? std::string(value) : std::string();
 }
 

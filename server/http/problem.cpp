@@ -77,17 +77,14 @@ std::string reason_phrase(int status) {
 }
 
 Response problem_response(const Problem& problem, const std::string& request_id) {
-  nlohmann::ordered_json document = {{"type", "about:blank"},
-                                     {"title", reason_phrase(problem.status)},
-                                     {"status", problem.status},
-                                     {"code", problem.code},
-                                     {"detail", problem.detail},
-                                     {"errors", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json document = {{"type", "about:blank"},    {"title", reason_phrase(problem.status)},
+                                     {"status", problem.status}, {"code", problem.code},
+                                     {"detail", problem.detail}, {"errors", nlohmann::ordered_json::array()}};
   for (const FieldError& error : problem.errors)
     document["errors"].push_back({{"pointer", error.pointer}, {"message", error.message}});
   if (!request_id.empty()) document["request_id"] = request_id;
-  Response response = json_response(
-      problem.status, document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  Response response =
+      json_response(problem.status, document.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   response.content_type = "application/problem+json";
   response.headers = problem.headers;
   return response;

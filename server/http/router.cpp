@@ -33,7 +33,9 @@ bool matches(std::string_view pattern, std::string_view path, std::map<std::stri
 
 }  // namespace
 
-void Router::add(Route route) { routes_.push_back(std::move(route)); }
+void Router::add(Route route) {
+  routes_.push_back(std::move(route));
+}
 
 const Route& Router::find(Request& request) const {
   const std::string method = request.method == "HEAD" ? "GET" : request.method;

@@ -12,7 +12,7 @@ struct Route {
   std::string method;
   std::string pattern;  // "/v1/jobs/{id}/artifacts/{name}"
   Handler handler;
-  bool open = false;    // answers without an API key
+  bool open = false;  // answers without an API key
 };
 
 class Router {

@@ -15,9 +15,10 @@ using Steady = std::chrono::steady_clock;
 // The client's own id when it is a short plain word, else a fresh one.
 std::string request_id_of(const Request& request) {
   const std::string given = request.header("X-Request-Id");
-  const bool plain = !given.empty() && given.size() <= 64 && std::all_of(given.begin(), given.end(), [](unsigned char c) {
-    return (c < 128 && std::isalnum(c) != 0) || c == '-' || c == '_' || c == '.';
-  });
+  const bool plain =
+      !given.empty() && given.size() <= 64 && std::all_of(given.begin(), given.end(), [](unsigned char c) {
+        return (c < 128 && std::isalnum(c) != 0) || c == '-' || c == '_' || c == '.';
+      });
   return plain ? given : random_identifier("req");
 }
 

@@ -50,7 +50,8 @@ Response metrics(Service& service) {
   for (const JobState state :
        {JobState::Queued, JobState::Running, JobState::Succeeded, JobState::Failed, JobState::Cancelled}) {
     const auto found = counts.jobs.find(state);
-    out << "toile_jobs{state=\"" << state_name(state) << "\"} " << (found == counts.jobs.end() ? 0 : found->second) << '\n';
+    out << "toile_jobs{state=\"" << state_name(state) << "\"} " << (found == counts.jobs.end() ? 0 : found->second)
+        << '\n';
   }
   const double wait = counts.oldest_queued_ms == 0
                           ? 0.0

@@ -97,8 +97,12 @@ Upload read_multipart(Service& service, Request& request, InputKind kind, const 
   reader.finish();
   if (!has_file || file.size() == 0) throw invalid("file", "send the bytes as a form part called `file`");
   refuse_unknown_fields(fields, kind);
-  NewInput input{request.tenant, kind, fields.contains("name") ? caption(fields["name"]) : filename,
-                 reading_fields(fields, extension(filename)), "{}", split_labels(fields["labels"])};
+  NewInput input{request.tenant,
+                 kind,
+                 fields.contains("name") ? caption(fields["name"]) : filename,
+                 reading_fields(fields, extension(filename)),
+                 "{}",
+                 split_labels(fields["labels"])};
   return {std::move(input), file.finish()};
 }
 
@@ -146,8 +150,11 @@ Upload read_upload(Service& service, Request& request, InputKind kind) {
     throw Error(ErrorCode::StorageFull, "", "the server's disk is nearly full");
   const std::int64_t limit = service.options.max_upload_bytes + static_cast<std::int64_t>(kMaxFieldBytes);
   if (request.content_length > limit)
-    throw Problem{413, "limit_exceeded",
-                  "a file may have at most " + std::to_string(service.options.max_upload_bytes) + " bytes", {}, {}};
+    throw Problem{413,
+                  "limit_exceeded",
+                  "a file may have at most " + std::to_string(service.options.max_upload_bytes) + " bytes",
+                  {},
+                  {}};
   const Seat seat(service.uploading, service.options.max_uploads);
   if (!seat) throw Problem{503, "busy", "too many uploads at a time: try again", {}, {{"Retry-After", "1"}}};
   const std::string type = request.header("Content-Type");

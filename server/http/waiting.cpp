@@ -21,7 +21,8 @@ std::optional<int> number(std::string_view text) {
 
 Job wait_for_job(Service& service, const std::string& tenant, const std::string& id, double seconds,
                  const std::function<bool(const Job&)>& enough) {
-  const auto until = Steady::now() + std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(seconds));
+  const auto until =
+      Steady::now() + std::chrono::duration_cast<Steady::duration>(std::chrono::duration<double>(seconds));
   const Seat seat(service.waiting, service.options.max_waiting);
   for (;;) {
     const std::optional<Job> job = service.store.jobs.find(tenant, id);

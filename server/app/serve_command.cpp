@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "server/app/command.h"
+#include "server/app/job_kinds.h"
+#include "server/app/json_log.h"
+#include "server/app/settings.h"
+#include "server/http/library_server.h"
+#include "server/http/service.h"
+
+namespace toile::app {
+
+namespace {
+
+std::string text_of_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error(ErrorCode::FileUnreadable, path, "cannot read the file: does it exist, may this user read it?");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+http::ServiceOptions service_options(const ServeSettings& settings) {
+  http::ServiceOptions options;
+  options.max_upload_bytes = settings.max_upload_mb << 20;
+  options.min_free_bytes = settings.min_free_mb << 20;
+  options.max_wait_s = settings.max_wait_s;
+  options.max_waiting = std::max(1, settings.http_threads * 3 / 8);
+  options.max_uploads = std::max(1, settings.http_threads / 4);
+  options.kinds.clear();
+  for (const auto& [kind, handler] : job_kinds()) options.kinds.insert(kind);
+  return options;
+}
+
+http::HubLimits hub_limits(const ServeSettings& settings) {
+  http::HubLimits limits;
+  limits.workers = settings.http_threads;
+  return limits;
+}
+
+void tell_port(const ServeSettings& settings, int port) {
+  if (settings.port_file.empty()) return;
+  const std::string aside = settings.port_file + ".new";
+  std::ofstream(aside) << port << '\n';
+  std::filesystem::rename(aside, settings.port_file);
+}
+
+void serve(const WorkSettings& work, const ServeSettings& settings, const std::atomic<bool>& stop) {
+  const EventLog log = json_log();
+  const http::ApiKeys keys =
+      settings.api_keys_file.empty() ? http::ApiKeys() : http::ApiKeys::parse(text_of_file(settings.api_keys_file));
+  Store store(work.data, queue_options(work));
+  http::Service service(store, service_options(settings), keys, log);
+  http::LibraryServer server(
+      hub_limits(settings), [&](http::Request& request) { return service.answer(request); },
+      [&](const http::Problem& problem, const std::string& remote) {
+        service.metrics.count_refusal(problem.code);
+        log("refused", {{"code", problem.code}, {"status", std::to_string(problem.status)}, {"remote", remote}});
+      });
+  const int port = server.bind(settings.host, settings.port);
+  WorkerPool pool(store, worker_options(work), log);
+  std::thread listener([&] { server.run(); });
+  tell_port(settings, port);
+  log("listening", {{"url", "http://" + settings.host + ":" + std::to_string(port)}, {"data", work.data}});
+  while (!stop) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  log("draining", {});
+  service.stopping = true;
+  server.stop();
+  listener.join();
+  pool.drain();
+  log("stopped", {});
+}
+
+}  // namespace
+
+void add_serve_command(CLI::App& app, Context& context) {
+  const auto work = std::make_shared<WorkSettings>();
+  const auto settings = std::make_shared<ServeSettings>();
+  CLI::App* command = app.add_subcommand("serve", "HTTP server with workers inside; all its state is in --data");
+  add_work_settings(*command, *work);
+  add_serve_settings(*command, *settings);
+  command->callback([work, settings, &context] { serve(*work, *settings, *context.progress.cancelled); });
+}
+
+}  // namespace toile::app

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/app/settings.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace toile::app {
+
+namespace {
+
+template <class T>
+CLI::Option* setting(CLI::App& command, const std::string& name, T& value, const std::string& meaning) {
+  std::string variable = "TOILE_" + name.substr(2);
+  std::transform(variable.begin(), variable.end(), variable.begin(), [](char c) {
+    return c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  });
+  if constexpr (std::is_same_v<T, bool>)
+    return command.add_flag(name, value, meaning)->envname(variable);
+  else
+    return command.add_option(name, value, meaning)->envname(variable)->capture_default_str();
+}
+
+}  // namespace
+
+void add_work_settings(CLI::App& command, WorkSettings& settings) {
+  command.set_config("--config", "", "file with settings, one `name = value` a line")->envname("TOILE_CONFIG");
+  setting(command, "--data", settings.data, "folder of all state");
+  setting(command, "--workers", settings.workers, "jobs at a time; 0: as many as processor cores")
+      ->check(CLI::Range(0, 256));
+  setting(command, "--job-threads", settings.job_threads, "threads of one job")->check(CLI::Range(1, 256));
+  setting(command, "--job-memory-mb", settings.job_memory_mb, "address space of one job, MiB; 0: no limit")
+      ->check(CLI::Range(0, 1 << 24));
+  setting(command, "--job-cpu-s", settings.job_cpu_s, "processor seconds of one job; 0: no limit")
+      ->check(CLI::Range(0, 1 << 24));
+  setting(command, "--job-wall-s", settings.job_wall_s, "seconds one job may take")->check(CLI::Range(1, 1 << 24));
+  setting(command, "--lease-s", settings.lease_s, "seconds after which a silent worker has lost its job")
+      ->check(CLI::Range(2, 3600));
+  setting(command, "--drain-s", settings.drain_s,
+          "seconds running jobs get on shutdown before they go back to the queue")
+      ->check(CLI::Range(0, 3600));
+  setting(command, "--retention-days", settings.retention_days, "days ended jobs are kept; 0: for ever")
+      ->check(CLI::Range(0, 36500));
+  setting(command, "--stage-cache-mb", settings.stage_cache_mb, "finished stages kept for reuse, MiB")
+      ->check(CLI::Range(0, 1 << 24));
+  setting(command, "--max-queued", settings.max_queued, "waiting jobs beyond which 429 is answered")
+      ->check(CLI::Range(1, 1 << 24));
+}
+
+void add_serve_settings(CLI::App& command, ServeSettings& settings) {
+  setting(command, "--host", settings.host, "address to listen on");
+  setting(command, "--port", settings.port, "port to listen on; 0: a free one")->check(CLI::Range(0, 65535));
+  setting(command, "--port-file", settings.port_file, "file that gets the port once the server listens");
+  setting(command, "--api-keys", settings.api_keys_file,
+          "file of lines `TENANT SHA256-OF-KEY`; without it all may come in");
+  setting(command, "--http-threads", settings.http_threads, "requests answered at a time")->check(CLI::Range(4, 512));
+  setting(command, "--max-upload-mb", settings.max_upload_mb, "largest body or garment, MiB")
+      ->check(CLI::Range(1, 1024));
+  setting(command, "--min-free-mb", settings.min_free_mb, "free disk space below which nothing new is taken, MiB")
+      ->check(CLI::Range(0, 1 << 24));
+  setting(command, "--max-wait-s", settings.max_wait_s, "longest `Prefer: wait`")->check(CLI::Range(0, 600));
+  setting(command, "--webhook-secret", settings.webhook_secret_file,
+          "file with the secret that signs webhooks; without it none are sent");
+  setting(command, "--webhook-private", settings.webhook_private, "let webhooks go to private and loopback addresses");
+  setting(command, "--demo", settings.demo, "store the demo garment and bodies at start");
+}
+
+QueueOptions queue_options(const WorkSettings& settings) {
+  QueueOptions options;
+  options.lease_ms = settings.lease_s * 1000LL;
+  options.max_queued = settings.max_queued;
+  options.engine_version = TOILE_VERSION;
+  return options;
+}
+
+WorkerPoolOptions worker_options(const WorkSettings& settings) {
+  WorkerPoolOptions options;
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  options.workers = settings.workers > 0 ? settings.workers : std::max(1, cores / settings.job_threads);
+  options.lease_ms = settings.lease_s * 1000LL;
+  options.heartbeat_ms = std::min<std::int64_t>(5000, options.lease_ms / 6);
+  options.drain_ms = settings.drain_s * 1000LL;
+  options.attempt.command = {"/proc/self/exe", "run-job"};
+  options.attempt.limits.memory_bytes = settings.job_memory_mb << 20;
+  options.attempt.limits.cpu_s = settings.job_cpu_s;
+  options.attempt.wall_s = settings.job_wall_s;
+  options.attempt.threads = settings.job_threads;
+  return options;
+}
+
+}  // namespace toile::app
