@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::string_view kBuiltin = "builtin:";
 
+}  // namespace
+
 ImportBodyOptions import_options(const BodySource& source) {
   ImportBodyOptions options;
   options.kind = source.kind == "form" ? BodyKind::Form : BodyKind::Human;
@@ -20,8 +22,6 @@ ImportBodyOptions import_options(const BodySource& source) {
     if (source.up == up_name(up)) options.up = up;
   return options;
 }
-
-}  // namespace
 
 void add_body_options(CLI::App& app, BodySource& source) {
   app.add_option("--unit", source.unit, "unit of the file")

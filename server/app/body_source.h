@@ -18,6 +18,7 @@ struct BodySource {
   std::string landmarks;       // file of given landmarks, or empty
 };
 void add_body_options(CLI::App& app, BodySource& source);
+ImportBodyOptions import_options(const BodySource& source);
 
 // A file (OBJ, PLY, STL; "-" is standard input) or `builtin:NAME`. Throws FileUnreadable, LimitExceeded.
 BodyInput read_body_input(const std::string& file, const BodySource& source);

@@ -7,6 +7,8 @@
 namespace toile::app {
 
 JobHandlers job_kinds();
+// What looks into uploads before they are stored; not to be asked for by clients.
+JobHandlers inspection_kinds();
 
 // Kinds that crash, loop and eat memory on purpose. The shipped program has none; the program of the tests has them.
 void add_test_job_kinds(JobHandlers& kinds);

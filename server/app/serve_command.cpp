@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <thread>
 
+#include "jobs/worker/inspection.h"
+#include "jobs/worker/sweeper.h"
 #include "server/app/command.h"
+#include "server/app/engine_jobs.h"
 #include "server/app/job_kinds.h"
 #include "server/app/json_log.h"
 #include "server/app/settings.h"
 #include "server/http/library_server.h"
+#include "server/http/openapi_text.h"
 #include "server/http/service.h"
+#include "server/http/webhook_sender.h"
 
 namespace toile::app {
 
@@ -47,12 +53,54 @@ void tell_port(const ServeSettings& settings, int port) {
   std::filesystem::rename(aside, settings.port_file);
 }
 
+// Uploads get less than jobs do: an import is a matter of seconds.
+AttemptOptions inspection_options(const WorkSettings& work) {
+  constexpr int kSeconds = 60;
+  AttemptOptions options = worker_options(work).attempt;
+  options.limits.memory_bytes = std::min<std::int64_t>(options.limits.memory_bytes, 2LL << 30);
+  options.limits.cpu_s = kSeconds;
+  options.wall_s = kSeconds;
+  return options;
+}
+
+http::InputInspector inspector(Store& store, const WorkSettings& work) {
+  return [&store, options = inspection_options(work)](InputKind kind, const std::string& name,
+                                                      const std::string& fields, const std::filesystem::path& file) {
+    JobRequest request;
+    request.kind = "inspect_" + std::string(kind_name(kind));
+    request.options = "{}";
+    request.inputs["input"] = {std::filesystem::absolute(file).string(), name, fields};
+    return inspect_in_child(store, request, options);
+  };
+}
+
+// Wires what the endpoints leave to the application.
+void equip(http::Service& service, const WorkSettings& work, const ServeSettings& settings) {
+  service.inspect = inspector(service.store, work);
+  service.check_options = complete_options;
+  service.openapi = http::openapi_text();
+  service.check_webhook = [&settings](const std::string& url) {
+    if (settings.webhook_secret_file.empty())
+      throw Error(ErrorCode::OptionInvalid, "/webhook", "webhooks are off: the server needs --webhook-secret");
+    http::check_webhook_url(url, settings.webhook_private);
+  };
+}
+
+std::unique_ptr<http::WebhookSender> webhook_sender(http::Service& service, const ServeSettings& settings) {
+  if (settings.webhook_secret_file.empty()) return nullptr;
+  http::WebhookOptions options;
+  options.secret = http::webhook_key(text_of_file(settings.webhook_secret_file));
+  options.private_hosts = settings.webhook_private;
+  return std::make_unique<http::WebhookSender>(service, options);
+}
+
 void serve(const WorkSettings& work, const ServeSettings& settings, const std::atomic<bool>& stop) {
   const EventLog log = json_log();
   const http::ApiKeys keys =
       settings.api_keys_file.empty() ? http::ApiKeys() : http::ApiKeys::parse(text_of_file(settings.api_keys_file));
   Store store(work.data, queue_options(work));
   http::Service service(store, service_options(settings), keys, log);
+  equip(service, work, settings);
   http::LibraryServer server(
       hub_limits(settings), [&](http::Request& request) { return service.answer(request); },
       [&](const http::Problem& problem, const std::string& remote) {
@@ -61,6 +109,8 @@ void serve(const WorkSettings& work, const ServeSettings& settings, const std::a
       });
   const int port = server.bind(settings.host, settings.port);
   WorkerPool pool(store, worker_options(work), log);
+  const Sweeper sweeper(store, sweep_options(work), log);
+  const auto webhooks = webhook_sender(service, settings);
   std::thread listener([&] { server.run(); });
   tell_port(settings, port);
   log("listening", {{"url", "http://" + settings.host + ":" + std::to_string(port)}, {"data", work.data}});

@@ -87,4 +87,11 @@ WorkerPoolOptions worker_options(const WorkSettings& settings) {
   return options;
 }
 
+SweepOptions sweep_options(const WorkSettings& settings) {
+  SweepOptions options;
+  options.retention_days = settings.retention_days;
+  options.stage_bytes = settings.stage_cache_mb << 20;
+  return options;
+}
+
 }  // namespace toile::app

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "jobs/worker/worker_pool.h"
+#include "jobs/worker/sweeper.h"
 
 namespace toile::app {
 
@@ -44,5 +44,6 @@ void add_serve_settings(CLI::App& command, ServeSettings& settings);
 
 QueueOptions queue_options(const WorkSettings& settings);
 WorkerPoolOptions worker_options(const WorkSettings& settings);
+SweepOptions sweep_options(const WorkSettings& settings);
 
 }  // namespace toile::app

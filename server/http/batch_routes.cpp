@@ -52,8 +52,7 @@ struct BatchRequest {
 };
 
 BatchRequest read_batch(const Service& service, const std::string& tenant, const json& document) {
-  refuse_unknown_members(document,
-                         {"garment", "reference_body", "target_bodies", "label", "options", "labels", "webhook"});
+  require_schema(document, "batch_request");
   BatchRequest request;
   request.batch.tenant = tenant;
   request.batch.garment = required_text(document, "garment");

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/io/schema_check.h"
 #include "server/http/problem.h"
 
 namespace toile::http {
@@ -176,11 +177,18 @@ json read_json(Request& request, std::int64_t max_bytes, std::string* raw) {
   }
 }
 
-void refuse_unknown_members(const json& object, const std::vector<std::string>& known) {
-  if (!object.is_object()) throw invalid("", "the body must be a JSON object");
-  for (const auto& [name, value] : object.items())
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw invalid("/" + name, "unknown member `" + name + "`; see /openapi.yaml");
+void require_schema(const json& document, const std::string& schema) {
+  const std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace);
+  const io::SchemaCheck check =
+      io::check_schema(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), schema);
+  if (check.problems.empty()) return;
+  Problem problem{422,
+                  std::string(error_name(ErrorCode::BadUsage)),
+                  "the request does not agree with /schemas/" + schema + ".schema.json",
+                  {},
+                  {}};
+  for (const io::SchemaProblem& found : check.problems) problem.errors.push_back({found.pointer, found.message});
+  throw problem;
 }
 
 std::vector<std::string> labels_of(const json& value, const std::string& pointer) {

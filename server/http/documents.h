@@ -32,8 +32,8 @@ std::string next_link(const Request& request, std::size_t count, int limit, std:
 
 // The request's JSON body. Throws Problem: 415 not JSON, 413 too large, 400 malformed or nested deeper than 64.
 nlohmann::json read_json(Request& request, std::int64_t max_bytes, std::string* raw = nullptr);
-// Throws Problem 422 with a pointer for every member of `object` not in `known`.
-void refuse_unknown_members(const nlohmann::json& object, const std::vector<std::string>& known);
+// Throws Problem 422 with a pointer for everything that disagrees with the schema (schemas/).
+void require_schema(const nlohmann::json& document, const std::string& schema);
 // Strings of at most 100 characters, at most 50 of them.
 std::vector<std::string> labels_of(const nlohmann::json& value, const std::string& pointer);
 

@@ -17,7 +17,8 @@ Response stored(const Input& input, bool is_new) {
 Response create(Service& service, Request& request, InputKind kind) {
   Upload upload = read_upload(service, request, kind);
   const bool known = service.store.inputs.find_equal(upload.input, upload.blob.sha256()).has_value();
-  if (!known && service.inspect) upload.input.about = service.inspect(kind, upload.input.fields, upload.blob.file());
+  if (!known && service.inspect)
+    upload.input.about = service.inspect(kind, upload.input.name, upload.input.fields, upload.blob.file());
   service.store.artifacts.publish(std::span(&upload.blob, 1));
   Transaction transaction(service.store.database);
   const auto [input, is_new] = service.store.inputs.add(transaction, upload.input, upload.blob);

@@ -41,8 +41,7 @@ std::optional<std::string> read_webhook(const Service& service, const json& docu
 }
 
 NewJob read_job_request(const Service& service, const std::string& tenant, const json& document) {
-  refuse_unknown_members(document,
-                         {"kind", "garment", "reference_body", "target_body", "options", "labels", "webhook"});
+  require_schema(document, "job_request");
   NewJob job;
   job.tenant = tenant;
   job.kind = document.contains("kind") ? required_text(document, "kind") : "alter";

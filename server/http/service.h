@@ -26,8 +26,8 @@ struct ServiceOptions {
 };
 
 // Looks into an uploaded file before it is stored; answers what it found (JSON). Throws Error when it is unusable.
-using InputInspector =
-    std::function<std::string(InputKind kind, const std::string& fields, const std::filesystem::path& file)>;
+using InputInspector = std::function<std::string(InputKind kind, const std::string& name, const std::string& fields,
+                                                 const std::filesystem::path& file)>;
 // Checks a job's options (JSON); answers them with all defaults written out, so that equal jobs read equal. Throws
 // Error whose subject is the JSON pointer.
 using OptionsCheck = std::function<std::string(const std::string& kind, const std::string& options)>;

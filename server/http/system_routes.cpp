@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/io/schema_texts.h"
 #include "server/http/documents.h"
 #include "server/http/service.h"
 
@@ -75,6 +76,19 @@ Response openapi(const Service& service) {
   return response;
 }
 
+Response schema(const Request& request) {
+  constexpr std::string_view kEnding = ".schema.json";
+  const std::string& file = request.path_value("file");
+  for (const io::SchemaText& text : io::schema_texts()) {
+    if (file != std::string(text.name) + std::string(kEnding)) continue;
+    Response response;
+    response.content_type = "application/schema+json";
+    response.body = text.text;
+    return response;
+  }
+  throw Problem{404, "not_found", "there is no schema of this name", {}, {}};
+}
+
 }  // namespace
 
 void add_system_routes(Service& service) {
@@ -87,6 +101,7 @@ void add_system_routes(Service& service) {
   open("/version", [&service](Request&) {
     return json_response(200, text_of({{"name", "toile"}, {"version", service.options.version}}));
   });
+  open("/schemas/{file}", [](Request& request) { return schema(request); });
   open("/openapi.yaml", [&service](Request&) { return openapi(service); });
 }
 

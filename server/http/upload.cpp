@@ -47,7 +47,7 @@ std::string reading_fields(const std::map<std::string, std::string>& fields, con
   json reading = json::object();
   if (!format.empty()) reading["format"] = format;
   for (const auto& [name, value] : fields) {
-    if (name == "unit" || name == "up" || name == "uv_unit") reading[name] = value;
+    if (name == "unit" || name == "up" || name == "kind" || name == "uv_unit") reading[name] = value;
     if (name == "keep_drape") reading[name] = value == "true" || value == "1";
     if (name == "landmarks") {
       const json landmarks = json::parse(value, nullptr, false);
@@ -59,7 +59,7 @@ std::string reading_fields(const std::map<std::string, std::string>& fields, con
 }
 
 void refuse_unknown_fields(const std::map<std::string, std::string>& fields, InputKind kind) {
-  const std::set<std::string> body = {"name", "labels", "unit", "up", "landmarks"};
+  const std::set<std::string> body = {"name", "labels", "kind", "unit", "up", "landmarks"};
   const std::set<std::string> garment = {"name", "labels", "uv_unit", "keep_drape"};
   for (const auto& [name, value] : fields)
     if (!(kind == InputKind::Body ? body : garment).contains(name))
@@ -120,22 +120,21 @@ Upload read_json_upload(Service& service, Request& request, InputKind kind) {
     input.fields = R"({"format":"json"})";
     return {std::move(input), prepare_text(service, raw)};
   }
+  require_schema(document, "input_request");
   const bool body = kind == InputKind::Body;
-  refuse_unknown_members(document, body ? std::vector<std::string>{"name", "labels", "measurements", "builtin"}
-                                        : std::vector<std::string>{"name", "labels", "specification"});
-  if (document.contains("name")) {
-    if (!document["name"].is_string()) throw invalid("/name", "the name is a string");
-    input.name = caption(document["name"]);
-  }
+  input.name = caption(document.value("name", ""));
   if (document.contains("labels")) input.labels = labels_of(document["labels"], "/labels");
-  for (const char* member : {"measurements", "specification"})
-    if (document.contains(member)) {
-      if (!document[member].is_object()) throw invalid(std::string("/") + member, "must be an object");
-      input.fields = body ? R"({"format":"measurements"})" : R"({"format":"json"})";
-      return {std::move(input), prepare_text(service, document[member].dump())};
-    }
-  if (body && document.contains("builtin") && document["builtin"].is_string()) {
-    input.fields = R"({"format":"builtin"})";
+  json reading = json::object();
+  if (document.contains("kind")) reading["kind"] = document["kind"];
+  const char* member = body ? "measurements" : "specification";
+  if (document.contains(member)) {
+    reading["format"] = body ? "measurements" : "json";
+    input.fields = reading.dump();
+    return {std::move(input), prepare_text(service, document[member].dump())};
+  }
+  if (body && document.contains("builtin")) {
+    reading["format"] = "builtin";
+    input.fields = reading.dump();
     if (input.name.empty()) input.name = caption(document["builtin"]);
     return {std::move(input), prepare_text(service, document["builtin"].get<std::string>())};
   }

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "server/app/engine_jobs.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/core/content_hash.h"
+#include "engine/io/body_json.h"
+#include "engine/io/options_json.h"
+#include "engine/io/record_json.h"
+#include "engine/outputs.h"
+#include "engine/stages/import_pattern.h"
+#include "server/app/body_source.h"
+
+namespace toile::app {
+
+using nlohmann::json;
+
+namespace {
+
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+std::string text_of(const Bytes& bytes) {
+  return std::string(bytes.begin(), bytes.end());
+}
+
+BodyInput body_input(const JobInput& given) {
+  const json fields = json::parse(given.fields);
+  if (fields.value("format", "") == "builtin") return {"builtin:" + text_of(given.bytes), {}, {}, {}};
+  BodySource source;
+  source.unit = fields.value("unit", source.unit);
+  source.up = fields.value("up", source.up);
+  source.kind = fields.value("kind", source.kind);
+  BodyInput body{given.name.empty() ? "body" : given.name, given.bytes, import_options(source), {}};
+  if (fields.contains("landmarks")) {
+    const std::string landmarks = fields["landmarks"].dump();
+    body.landmarks.assign(landmarks.begin(), landmarks.end());
+  }
+  return body;
+}
+
+GarmentInput garment_input(const JobInput& given) {
+  return {given.name.empty() ? "garment" : given.name, given.bytes};
+}
+
+// Hands the files over; the report quotes the result and the clocks.
+JobReport hand_over(const JobContext& context, std::vector<OutputFile> files, const std::vector<StageTiming>& timings) {
+  files.push_back(timings_output(timings));
+  JobReport report;
+  for (const OutputFile& file : files) {
+    context.artifact(file.name, file.content_type, file.bytes);
+    if (file.name == "timings.json") report.timings = text_of(file.bytes);
+    if (file.name != "result.json") continue;
+    // What the files and the inputs are, the job's own document says already.
+    json summary = json::parse(file.bytes);
+    for (const char* told : {"inputs", "options", "files", "schema"}) summary.erase(told);
+    report.summary = summary.dump();
+  }
+  return report;
+}
+
+}  // namespace
+
+JobReport alter_job(const JobContext& context) {
+  const AlterOptions options = io::read_options(bytes_of(context.options));
+  const GarmentInput garment = garment_input(context.inputs.at("garment"));
+  const BodyInput reference = body_input(context.inputs.at("reference_body"));
+  const BodyInput target = body_input(context.inputs.at("target_body"));
+  StageRunner runner(context.stages, context.progress, kAlterStages);
+  const AlterResult result = alter_garment(garment, reference, target, options, runner);
+  const JobInfo info{garment.name,
+                     reference.name,
+                     target.name,
+                     sha256_hex(garment.bytes),
+                     sha256_hex(reference.bytes),
+                     sha256_hex(target.bytes)};
+  return hand_over(context, alter_outputs(result, options, info), runner.timings());
+}
+
+JobReport drape_job(const JobContext& context) {
+  const AlterOptions options = io::read_options(bytes_of(context.options));
+  const GarmentInput garment = garment_input(context.inputs.at("garment"));
+  const BodyInput body = body_input(context.inputs.at("reference_body"));
+  StageRunner runner(context.stages, context.progress, kDrapeStages);
+  const auto draped = drape_garment(garment, body, options, runner);
+  const JobInfo info{garment.name, body.name, "", sha256_hex(garment.bytes), sha256_hex(body.bytes), ""};
+  return hand_over(context, drape_outputs(draped.value, options, info), runner.timings());
+}
+
+JobReport inspect_body_job(const JobContext& context) {
+  const BodyInput input = body_input(context.inputs.at("input"));
+  Record about;
+  if (input.bytes.empty()) {
+    const Body body = read_body(input);
+    about.add("vertices", body.surface.vertex_count()).add("triangles", body.surface.triangle_count());
+  } else {
+    const ImportBodyResult body = import_body(input.bytes, "file", input.import, context.progress);
+    if (!input.landmarks.empty()) read_landmarks(input.landmarks, "landmarks");
+    about.add("vertices", body.body.surface.vertex_count())
+        .add("triangles", body.body.surface.triangle_count())
+        .add("normalisation", describe_normalisation(body.normalisation))
+        .add("repairs", describe_repairs(body.repairs));
+  }
+  return {text_of(write_json(about)), "{}"};
+}
+
+JobReport inspect_garment_job(const JobContext& context) {
+  const Pattern pattern = import_pattern(context.inputs.at("input").bytes, context.progress);
+  std::vector<std::string> panels;
+  for (const Panel& panel : pattern.panels) panels.push_back(panel.name);
+  Record about;
+  about.add("panels", std::move(panels)).add("seams", static_cast<std::int64_t>(pattern.seams.size()));
+  return {text_of(write_json(about)), "{}"};
+}
+
+std::string complete_options(const std::string& kind, const std::string& options) {
+  if (kind != "alter" && kind != "drape") return options;
+  try {
+    return json::parse(io::write_options(io::read_options(bytes_of(options)))).dump();
+  } catch (const Error& error) {
+    throw Error(error.code, "/options" + error.subject, error.message);
+  }
+}
+
+}  // namespace toile::app
