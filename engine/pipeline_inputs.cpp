@@ -6,7 +6,8 @@
 #include "engine/io/body_json.h"
 #include "engine/stages/find_skeleton.h"
 #include "engine/stages/import_pattern.h"
-#include "engine/stages/make_form.h"
+#include "engine/stages/make_builtin_body.h"
+#include "engine/stages/make_mannequin.h"
 #include "engine/stages/measure_body.h"
 
 namespace toile {
@@ -24,6 +25,47 @@ void measure(Body& body) {
   } catch (const Error& error) {
     throw Error(error.code, body.name, error.message);
   }
+}
+
+Body make_builtin(const std::string& name) {
+  try {
+    return make_builtin_body(std::string_view(name).substr(kBuiltin.size()));
+  } catch (const Error& error) {
+    throw Error(ErrorCode::BodyUnusable, name, error.message);  // a wrong name is bad input, whatever made it fail
+  }
+}
+
+Figure figure_of(const std::string& name, const std::string& subject) {
+  constexpr std::pair<std::string_view, Figure> figures[] = {{"", Figure::Person},
+                                                             {"person", Figure::Person},
+                                                             {"woman", Figure::Woman},
+                                                             {"man", Figure::Man},
+                                                             {"child", Figure::Child}};
+  for (const auto& [known, figure] : figures)
+    if (name == known) return figure;
+  throw Error(ErrorCode::FileMalformed, subject, "/figure: one of person, woman, man, child is expected");
+}
+
+Body make_measured(const BodyInput& input) {
+  const MeasurementsDocument document = read_measurements(input.bytes, input.name);
+  try {
+    Body body = make_mannequin(document.measurements, {.figure = figure_of(document.figure, input.name)}).body;
+    body.name = input.name;
+    return body;
+  } catch (const Error& error) {
+    if (error.code != ErrorCode::OptionInvalid) throw;
+    throw Error(ErrorCode::BodyUnusable, input.name, error.subject + ": " + error.message);
+  }
+}
+
+// A body that came from no mesh file: nothing to mend or to turn.
+ImportBodyResult made(Body body) {
+  ImportBodyResult result;
+  result.file_vertices = body.surface.vertex_count();
+  result.file_triangles = body.surface.triangle_count();
+  result.normalisation.kept_coordinates = true;
+  result.body = std::move(body);
+  return result;
 }
 
 }  // namespace
@@ -52,13 +94,8 @@ Body read_body(const BodyInput& body) {
 }
 
 ImportBodyResult take_in_body(const BodyInput& input, Progress* progress) {
-  if (input.name.starts_with(kBuiltin)) {
-    ImportBodyResult result;
-    result.body = make_builtin_form(std::string_view(input.name).substr(kBuiltin.size()));
-    result.file_vertices = result.body.surface.vertex_count();
-    result.file_triangles = result.body.surface.triangle_count();
-    return result;
-  }
+  if (input.name.starts_with(kBuiltin)) return made(make_builtin(input.name));
+  if (looks_like_json(input.bytes)) return made(make_measured(input));
   ImportBodyResult result = import_body(input.bytes, input.name, input.import, progress);
   if (!input.landmarks.empty())
     result.body.landmarks = normalised_landmarks(read_landmarks(input.landmarks, input.name + " landmarks"),

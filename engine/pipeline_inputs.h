@@ -16,7 +16,7 @@ struct GarmentInput {
 
 struct BodyInput {
   std::string name;  // of the file, or "builtin:NAME" with no bytes
-  Bytes bytes;       // OBJ, PLY or STL
+  Bytes bytes;       // OBJ, PLY or STL, or a measurements document (body_json.h) for a mannequin
   ImportBodyOptions import = {};
   Bytes landmarks = {};  // a landmarks document (body_json.h), or empty
 };
@@ -25,7 +25,7 @@ struct BodyInput {
 std::string input_key(const GarmentInput& garment);
 std::string input_key(const BodyInput& body);
 
-// Throw the importers' errors; their subject names the input.
+// Throw the importers' and make_mannequin's errors; their subject names the input.
 Pattern read_garment(const GarmentInput& garment);
 Body read_body(const BodyInput& body);
 // The same with what was mended; a person has a skeleton, landmarks and measurements, a form has none.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/io/body_json.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "engine/core/units.h"
@@ -77,16 +79,24 @@ Landmarks normalised_landmarks(const GivenLandmarks& given, const Mat4& normalis
   return points;
 }
 
-Measurements read_measurements(std::span<const std::uint8_t> bytes, const std::string& subject) {
+bool looks_like_json(std::span<const std::uint8_t> bytes) {
+  const auto first = std::find_if(bytes.begin(), bytes.end(), [](std::uint8_t c) { return c > ' '; });
+  return first != bytes.end() && *first == '{';
+}
+
+MeasurementsDocument read_measurements(std::span<const std::uint8_t> bytes, const std::string& subject) {
   return read_document(bytes, subject, [](const io::JsonView& root) {
+    root.require_only({"schema", "figure", "measurements_m", "measurements_cm"});
+    MeasurementsDocument document;
+    if (const auto figure = root.find("figure")) document.figure = figure->text();
     const auto metres = root.find("measurements_m");
     const double unit = metres ? 1.0 : kMetrePerCm;
     const io::JsonView object = metres ? *metres : root.at("measurements_cm");
     const auto members = object.members();
     if (members.size() > kMaxNames) object.fail("more than 500 measurements", ErrorCode::LimitExceeded);
-    Measurements measurements;
-    for (const auto& [name, value] : members) measurements[name] = unit * value.number(0.0, kMaxMeasurement / unit);
-    return measurements;
+    for (const auto& [name, value] : members)
+      document.measurements[name] = unit * value.number(0.0, kMaxMeasurement / unit);
+    return document;
   });
 }
 

@@ -24,8 +24,15 @@ GivenLandmarks read_landmarks(std::span<const std::uint8_t> bytes, const std::st
 // Brings points given in the file's frame along with the body.
 Landmarks normalised_landmarks(const GivenLandmarks& given, const Mat4& normalised_from_file);
 
-// A measurements document: {"measurements_m": {...}} or {"measurements_cm": {...}}, ISO 8559-1 names. Metres out.
+// A measurements document: {"measurements_m": {...}} or {"measurements_cm": {...}} under ISO 8559-1 names, and whose
+// proportions are to complete them ("figure": "woman", "man", "child" or "person"; empty if not said).
+struct MeasurementsDocument {
+  Measurements measurements;  // m
+  std::string figure;
+};
+// Whether the bytes can only be such a document: JSON instead of a mesh.
+bool looks_like_json(std::span<const std::uint8_t> bytes);
 // Throws FileMalformed, LimitExceeded.
-Measurements read_measurements(std::span<const std::uint8_t> bytes, const std::string& subject);
+MeasurementsDocument read_measurements(std::span<const std::uint8_t> bytes, const std::string& subject);
 
 }  // namespace toile

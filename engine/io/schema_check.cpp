@@ -51,8 +51,8 @@ std::string named_schema(const json& document) {
 std::string recognised_schema(const json& document) {
   if (!document.is_object()) return {};
   if (document.contains("pattern")) return "garment";
-  if (document.contains("landmarks_m")) return "landmarks";
-  if (document.contains("measurements_m")) return "measurements";
+  if (document.contains("landmarks_m") || document.contains("landmarks")) return "landmarks";
+  if (document.contains("measurements_m") || document.contains("measurements_cm")) return "measurements";
   const auto options = list_options();
   const bool all_options = std::all_of(document.items().begin(), document.items().end(), [&](const auto& item) {
     return std::any_of(options.begin(), options.end(), [&](const OptionInfo& o) { return o.name == item.key(); });

@@ -13,7 +13,7 @@ namespace toile::app {
 namespace {
 
 struct BodyArguments {
-  std::string file;
+  std::string file, measurements;
   BodySource source;
   std::string out;
 };
@@ -35,7 +35,9 @@ Record body_document(const ImportBodyResult& result) {
 }
 
 void run(const BodyArguments& arguments, Context& context) {
-  const ImportBodyResult result = take_in_body(read_body_input(arguments.file, arguments.source), &context.progress);
+  const ImportBodyResult result =
+      take_in_body(read_body_input(arguments.file.empty() ? arguments.measurements : arguments.file, arguments.source),
+                   &context.progress);
   if (!arguments.out.empty()) write_file(arguments.out, write_obj(result.body.surface));
   const Bytes document = write_json(body_document(result));
   std::fwrite(document.data(), 1, document.size(), stdout);
@@ -46,7 +48,9 @@ void run(const BodyArguments& arguments, Context& context) {
 void add_body_command(CLI::App& app, Context& context) {
   auto arguments = std::make_shared<BodyArguments>();
   CLI::App* command = app.add_subcommand("body", "import, repair and measure a body; one JSON document on stdout");
-  command->add_option("FILE", arguments->file, "OBJ, PLY or STL; builtin:NAME; - is standard input")->required();
+  CLI::App* from = command->add_option_group("body")->require_option(1);
+  from->add_option("FILE", arguments->file, "OBJ, PLY or STL; a measurements JSON; builtin:NAME; - is standard input");
+  from->add_option("--measurements", arguments->measurements, "make a mannequin of these (JSON)");
   add_body_options(*command, arguments->source);
   command->add_option("--out", arguments->out, "write the normalised body there, as OBJ in metres");
   command->callback([arguments, &context] { run(*arguments, context); });

@@ -75,6 +75,21 @@ TEST(BodyCommand, AFormIsTakenAsItStands) {
   EXPECT_EQ(Json::parse(result.out)["kind"], "form");
 }
 
+TEST(BodyCommand, MakesMannequinsOfMeasurementsAndByName) {
+  const test::TemporaryFolder folder;
+  const std::string tape = folder.write(
+      "tape.json", R"({"figure": "woman", "measurements_cm": {"height": 168, "waist_girth": 72, "hip_girth": 97}})");
+  const auto made = body({"--measurements", tape});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const Json measured = Json::parse(made.out)["measurements_m"];
+  EXPECT_NEAR(measured["waist_girth"].get<double>(), 0.72, 0.005);
+  EXPECT_NEAR(measured["hip_girth"].get<double>(), 0.97, 0.005);
+  EXPECT_EQ(body({tape}).out, made.out);
+  const auto child = body({"builtin:child-128"});
+  ASSERT_EQ(child.exit_code, 0) << child.err;
+  EXPECT_NEAR(Json::parse(child.out)["measurements_m"]["height"].get<double>(), 1.28, 0.005);
+}
+
 struct Bad {
   const char* name;
   std::string content;
@@ -98,6 +113,8 @@ std::vector<Bad> bad_bodies() {
           {"claim.stl", stl, "byte 80"},
           {"cube.obj", text_of(write_obj(test::make_box(Vec3::Zero(), Vec3::Ones()))), "person"},
           {"small.obj", text_of(write_obj(small)), "person"},
+          {"giant.json", R"({"measurements_cm": {"height": 400}})", "measurements/height"},
+          {"figure.json", R"({"figure": "cat", "measurements_cm": {"height": 170}})", "/figure"},
           {"empty.ply", "", "empty"}};
 }
 

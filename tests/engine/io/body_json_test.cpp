@@ -41,8 +41,14 @@ TEST(BodyJson, LandmarksInTheFilesFrameFollowTheBody) {
 }
 
 TEST(BodyJson, MeasurementsComeInCentimetresOrMetres) {
-  EXPECT_DOUBLE_EQ(read_measurements(bytes_of(R"({"measurements_cm": {"height": 168}})"), "m").at("height"), 1.68);
-  EXPECT_DOUBLE_EQ(read_measurements(bytes_of(R"({"measurements_m": {"height": 1.7}})"), "m").at("height"), 1.7);
+  const Bytes text = bytes_of(" {\"figure\": \"woman\", \"measurements_cm\": {\"height\": 168}}");
+  EXPECT_TRUE(looks_like_json(text));
+  EXPECT_FALSE(looks_like_json(bytes_of("v 0 0 0\n")));
+  EXPECT_DOUBLE_EQ(read_measurements(text, "m").measurements.at("height"), 1.68);
+  EXPECT_EQ(read_measurements(text, "m").figure, "woman");
+  const MeasurementsDocument metres = read_measurements(bytes_of(R"({"measurements_m": {"height": 1.7}})"), "m");
+  EXPECT_DOUBLE_EQ(metres.measurements.at("height"), 1.7);
+  EXPECT_EQ(metres.figure, "");
 }
 
 TEST(BodyJson, BadDocumentsAreRefusedWithFileAndPointer) {
