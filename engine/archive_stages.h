@@ -8,6 +8,7 @@
 #include "engine/derive_in_loop.h"
 #include "engine/stages/derive_pattern.h"
 #include "engine/stages/drape.h"
+#include "engine/stages/fit_pattern_edges.h"
 #include "engine/stages/mesh_panels.h"
 
 namespace toile {
@@ -77,6 +78,12 @@ template <class A>
 void archive(A& a, DerivedPattern& v) {
   auto& [mesh, drape, fit, rms_stretch_error, pass_errors, derivation] = v;
   a(mesh, drape, fit, rms_stretch_error, pass_errors, derivation);
+}
+
+template <class A>
+void archive(A& a, FitPatternEdgesResult& v) {
+  auto& [pattern, deviation, largest_deviation, largest_seam_mismatch, bent_edges, polyline_edges] = v;
+  a(pattern, deviation, largest_deviation, largest_seam_mismatch, bent_edges, polyline_edges);
 }
 
 template <class A>

@@ -2,18 +2,27 @@
 #include "engine/outputs.h"
 
 #include <algorithm>
+#include <deque>
 #include <functional>
+#include <iterator>
 
 #include "engine/core/content_hash.h"
 #include "engine/draw_alterations.h"
+#include "engine/io/body_json.h"
 #include "engine/io/drape_obj.h"
+#include "engine/io/garmentcode_json.h"
 #include "engine/io/options_json.h"
 #include "engine/io/pdf.h"
 #include "engine/io/record_json.h"
+#include "engine/io/report_html.h"
 #include "engine/io/svg.h"
+#include "engine/io/text_format.h"
+#include "engine/io/ticket_document.h"
 #include "engine/render/drawing_picture.h"
 #include "engine/render/png.h"
 #include "engine/result_records.h"
+#include "engine/stages/body_zones.h"
+#include "engine/stages/draw_pattern.h"
 #include "engine/stages/render_views.h"
 
 namespace toile {
@@ -22,15 +31,27 @@ namespace {
 constexpr const char* kJson = "application/json";
 constexpr const char* kObj = "model/obj";
 constexpr const char* kPng = "image/png";
+constexpr const char* kSvg = "image/svg+xml";
+constexpr const char* kHtml = "text/html; charset=utf-8";
+const io::SvgOptions kInlined{.test_square = false, .inlined = true};
+
+Bytes bytes_of(const std::string& text) {
+  return Bytes(text.begin(), text.end());
+}
 
 // Files that are asked for, in the order they are made.
 class Outputs {
  public:
   explicit Outputs(const AlterOptions& options) : wanted_(options.outputs) {}
 
-  void make(const std::string& name, const char* type, const std::function<Bytes()>& work) {
-    const bool all = std::find(wanted_.begin(), wanted_.end(), "all") != wanted_.end();
-    if (all || std::find(wanted_.begin(), wanted_.end(), name) != wanted_.end()) files_.push_back({name, type, work()});
+  // The file's bytes, valid until finish(); null when it is not asked for.
+  const Bytes* make(const std::string& name, const char* type, const std::function<Bytes()>& work) {
+    const auto asked = [this](const std::string& word) {
+      return std::find(wanted_.begin(), wanted_.end(), word) != wanted_.end();
+    };
+    if (!asked("all") && !asked(name)) return nullptr;
+    files_.push_back({name, type, work()});
+    return &files_.back().bytes;
   }
   // result.json is always made, last: it lists the others.
   std::vector<OutputFile> finish(Record result) {
@@ -42,23 +63,29 @@ class Outputs {
     }
     result.add("files", std::move(listed));
     files_.push_back({"result.json", kJson, write_json(result)});
-    return std::move(files_);
+    return {std::make_move_iterator(files_.begin()), std::make_move_iterator(files_.end())};
   }
 
  private:
   std::vector<std::string> wanted_;
-  std::vector<OutputFile> files_;
+  std::deque<OutputFile> files_;  // a deque: bytes stay where they are
 };
 
-Record input_record(const std::string& name, const std::string& sha256) {
-  return Record().add("name", name).add("sha256", sha256);
+InputInfo info_of(const std::string& role, const std::string& name, const Bytes& bytes) {
+  return {role, name, bytes.empty() ? std::string() : sha256_hex(bytes)};
+}
+
+void add_input(Record& inputs, const InputInfo& info) {
+  Record input;
+  input.add("name", info.name);
+  if (!info.sha256.empty()) input.add("sha256", info.sha256);
+  inputs.add(info.role, std::move(input));
 }
 
 Record head_record(const char* kind, const AlterOptions& options, const JobInfo& info) {
   Record inputs;
-  inputs.add("garment", input_record(info.garment, info.garment_sha256));
-  inputs.add("reference_body", input_record(info.reference_body, info.reference_body_sha256));
-  if (!info.target_body.empty()) inputs.add("target_body", input_record(info.target_body, info.target_body_sha256));
+  add_input(inputs, info.garment);
+  for (const InputInfo& body : info.bodies) add_input(inputs, body);
   Record record;
   record.add("schema", "toile/result/1").add("status", "done").add("kind", kind).add("toile_version", TOILE_VERSION);
   record.add("inputs", std::move(inputs)).add("options", io::options_record(options));
@@ -73,7 +100,45 @@ ViewOptions views_of(const char* title) {
   return views;
 }
 
+// The ticket under the names the user knows the job's inputs by.
+Ticket named_ticket(const AlterResult& result, const JobInfo& info) {
+  Ticket ticket = result.altered.ticket;
+  ticket.garment = result.reference.pattern.name;
+  ticket.reference_body = info.bodies.front().name;
+  ticket.target_body = info.bodies.back().name;
+  return ticket;
+}
+
+std::string percent(double share) {
+  return io::number(100.0 * share, 1);
+}
+
+io::HtmlTable zone_table(const FitComparison& before, const FitComparison& ideal) {
+  io::HtmlTable table{"Stretch that differs from the reference fit, in percent",
+                      {"zone", "before, weft", "before, warp", "target pattern, weft", "target pattern, warp"},
+                      {}};
+  const auto add = [&table](std::string_view zone, const FitDifference& b, const FitDifference& i) {
+    table.rows.push_back(
+        {std::string(zone), percent(b.mean_weft), percent(b.mean_warp), percent(i.mean_weft), percent(i.mean_warp)});
+  };
+  add("whole garment", before.whole, ideal.whole);
+  for (std::size_t z = 0; z < before.zones.size(); ++z)
+    if (before.zones[z].area > 0.0 && static_cast<BodyZone>(z) != BodyZone::Whole)
+      add(zone_name(static_cast<BodyZone>(z)), before.zones[z], ideal.zones[z]);
+  return table;
+}
+
 }  // namespace
+
+JobInfo job_info(const GarmentInput& garment, const BodyInput& body) {
+  return {info_of("garment", garment.name, garment.bytes), {info_of("body", body.name, body.bytes)}};
+}
+
+JobInfo job_info(const GarmentInput& garment, const BodyInput& reference_body, const BodyInput& target_body) {
+  return {info_of("garment", garment.name, garment.bytes),
+          {info_of("reference_body", reference_body.name, reference_body.bytes),
+           info_of("target_body", target_body.name, target_body.bytes)}};
+}
 
 std::vector<OutputFile> drape_outputs(const DrapedGarment& draped, const AlterOptions& options, const JobInfo& info) {
   Outputs outputs(options);
@@ -84,47 +149,77 @@ std::vector<OutputFile> drape_outputs(const DrapedGarment& draped, const AlterOp
   Record result = head_record("drape", options, info);
   result.add("quality", quality_record(draped.drape.quality))
       .add("drape", drape_record(draped.drape))
-      .add("body", body_record(draped.body));
+      .add("body", describe_body(draped.body));
   return outputs.finish(std::move(result));
 }
 
 std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& options, const JobInfo& info) {
   const Pattern& pattern = r.reference.pattern;
   const PatternMesh& mesh = r.reference.mesh;
-  const TriangleMesh& wearer = r.reference.body.surface;
+  const Pattern& target_pattern = r.target_pattern.pattern;
+  const Drawing drawing = draw_alterations(pattern, r.altered);
+  const Ticket ticket = named_ticket(r, info);
+  const std::vector<BodyZone> zones = body_zones(pattern, mesh, r.reference.drape.drape, r.reference.body);
+  const FitComparison before = compare_fits(mesh, r.reference.fit, r.fit_before, {}, zones);
+  const FitComparison ideal = compare_fits(mesh, r.reference.fit, r.derived.fit, {}, zones);
+  const auto picture = [&](const Body& body, const DrapeResult& drape, const FittingMap& fit, const char* title) {
+    return render_views(&body.surface, &mesh, &drape.drape, &fit, views_of(title));
+  };
+
   Outputs outputs(options);
+  outputs.make("altered_pattern.svg", kSvg, [&] { return io::write_svg(drawing); });
+  outputs.make("altered_pattern.pdf", "application/pdf", [&] { return io::write_pdf(drawing); });
+  outputs.make("pattern.png", kPng, [&] { return write_png(draw_picture(drawing)); });
+  outputs.make("target_pattern.json", kJson, [&] { return bytes_of(io::write_garmentcode(target_pattern)); });
+  outputs.make("target_pattern.svg", kSvg, [&] { return io::write_svg(draw_changes(pattern, target_pattern)); });
+  outputs.make("ticket.json", kJson, [&] { return write_json(io::ticket_record(ticket)); });
+  outputs.make("ticket.html", kHtml, [&] { return io::write_ticket_html(ticket, io::write_svg(drawing, kInlined)); });
   outputs.make("reference_drape.obj", kObj,
                [&] { return io::write_drape_obj(pattern, mesh, r.reference.drape.drape); });
   outputs.make("target_before.obj", kObj, [&] { return io::write_drape_obj(pattern, mesh, r.before.drape); });
-  outputs.make("fit_reference.png", kPng, [&] {
-    return render_views(&wearer, &mesh, &r.reference.drape.drape, &r.reference.fit, views_of("reference"));
+  const Bytes* fit_reference = outputs.make("fit_reference.png", kPng, [&] {
+    return picture(r.reference.body, r.reference.drape, r.reference.fit, "reference");
   });
-  outputs.make("fit_before.png", kPng, [&] {
-    return render_views(&r.target_body.surface, &mesh, &r.before.drape, &r.fit_before, views_of("before"));
+  const Bytes* fit_before =
+      outputs.make("fit_before.png", kPng, [&] { return picture(r.target_body, r.before, r.fit_before, "before"); });
+  outputs.make("report.html", kHtml, [&] {
+    io::Report report;
+    report.title = pattern.name;
+    report.subtitle = "from " + ticket.reference_body + " to " + ticket.target_body;
+    if (fit_reference) report.fits.push_back({*fit_reference, "On the reference body"});
+    if (fit_before) report.fits.push_back({*fit_before, "On the target body, before alteration"});
+    report.zones = {zone_table(before, ideal)};
+    report.ticket = &ticket;
+    report.pattern_svg = io::write_svg(drawing, kInlined);
+    report.quality = quality_record(r.before.quality);
+    report.options = io::options_record(options);
+    return io::write_report_html(report);
   });
 
-  const Drawing drawing = draw_alterations(pattern, r.altered);
-  outputs.make("altered_pattern.svg", "image/svg+xml", [&] { return io::write_svg(drawing); });
-  outputs.make("altered_pattern.pdf", "application/pdf", [&] { return io::write_pdf(drawing); });
-  outputs.make("pattern.png", kPng, [&] { return write_png(draw_picture(drawing)); });
-
-  const std::vector<BodyZone> zones = body_zones(pattern, mesh, r.reference.drape.drape, r.reference.body);
-  const auto fit = [&](const FittingMap& map) {
-    return fit_record(pattern, compare_fits(mesh, r.reference.fit, map, {}, zones));
-  };
   Record fits;
-  fits.add("before", fit(r.fit_before)).add("ideal", fit(r.derived.fit));
+  fits.add("before", fit_record(pattern, before)).add("ideal", fit_record(pattern, ideal));
+  Record quality;
+  quality.add("reference_drape", quality_record(r.reference.drape.quality))
+      .add("target_drape_before", quality_record(r.before.quality))
+      .add("target_pattern_drape", quality_record(r.derived.drape.quality))
+      .add("area_imbalance", r.altered.area_imbalance)
+      .add("flags", Record::Value(r.altered.flags));
   Record stages;
   stages.add("reference_drape", drape_record(r.reference.drape))
       .add("register_bodies", r.registration.diagnostics)
       .add("transport_garment", r.transported.diagnostics)
       .add("target_drape_before", drape_record(r.before))
       .add("derive_pattern", derivation_record(r.derived))
+      .add("fit_pattern_edges", edges_record(r.target_pattern))
       .add("alter_pattern", alteration_record(r.altered));
   Record bodies;
-  bodies.add("reference", body_record(r.reference.body)).add("target", body_record(r.target_body));
+  bodies.add("reference", describe_body(r.reference.body)).add("target", describe_body(r.target_body));
   Record result = head_record("alter", options, info);
-  result.add("fits", std::move(fits)).add("stages", std::move(stages)).add("bodies", std::move(bodies));
+  result.add("quality", std::move(quality))
+      .add("alterations", *io::ticket_record(ticket).find("operations"))
+      .add("fits", std::move(fits))
+      .add("stages", std::move(stages))
+      .add("bodies", std::move(bodies));
   return outputs.finish(std::move(result));
 }
 

@@ -13,11 +13,18 @@ struct OutputFile {
   Bytes bytes;
 };
 
-// The names of the inputs and the date that documents carry; a job's, never the clock's.
-struct JobInfo {
-  std::string garment, reference_body, target_body;
-  std::string garment_sha256, reference_body_sha256, target_body_sha256;
+// What documents say of an input.
+struct InputInfo {
+  std::string role, name;
+  std::string sha256;  // of its bytes; empty for a built-in body
 };
+
+struct JobInfo {
+  InputInfo garment;
+  std::vector<InputInfo> bodies;
+};
+JobInfo job_info(const GarmentInput& garment, const BodyInput& body);
+JobInfo job_info(const GarmentInput& garment, const BodyInput& reference_body, const BodyInput& target_body);
 
 std::vector<OutputFile> alter_outputs(const AlterResult& result, const AlterOptions& options, const JobInfo& info);
 std::vector<OutputFile> drape_outputs(const DrapedGarment& result, const AlterOptions& options, const JobInfo& info);

@@ -43,13 +43,15 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
     return derive_in_loop(pattern, mesh, fit, target.value, transported.value.drape, derive_options, drape_options,
                           loop_options, runner.progress());
   });
+  const auto drawn = runner.run("fit_pattern_edges", 1, derived.key,
+                                [&] { return fit_pattern_edges(pattern, mesh, derived.value.mesh.rest); });
   const auto altered = runner.run("alter_pattern", 1, key_of(derived.key, alter_options), [&] {
     return alter_pattern(pattern, mesh, derived.value.mesh.rest, alter_options, runner.progress());
   });
 
   FittingMap fit_before = build_fitting_map(mesh, before.value.drape);
-  return {std::move(reference.value), target.value, registered.value, transported.value, before.value,
-          std::move(fit_before), derived.value, altered.value};
+  return {std::move(reference.value), target.value,  registered.value, transported.value, before.value,
+          std::move(fit_before),      derived.value, drawn.value,      altered.value};
 }
 
 }  // namespace toile

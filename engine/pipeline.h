@@ -14,6 +14,7 @@
 #include "engine/stages/build_fitting_map.h"
 #include "engine/stages/compare_fits.h"
 #include "engine/stages/drape.h"
+#include "engine/stages/fit_pattern_edges.h"
 #include "engine/stages/register_bodies.h"
 #include "engine/stages/transport_garment.h"
 
@@ -35,12 +36,13 @@ struct AlterResult {
   TransportGarmentResult transported;
   DrapeResult before;  // the garment as it is, on the target body
   FittingMap fit_before;
-  DerivedPattern derived;      // the ideal pattern and its drape on the target body
-  AlterPatternResult altered;  // how the original cloth becomes it
+  DerivedPattern derived;                // the ideal pattern and its drape on the target body
+  FitPatternEdgesResult target_pattern;  // the ideal pattern drawn with the edges of the original
+  AlterPatternResult altered;            // how the original cloth becomes it
 };
 
 // How many stages a runner of each goes through, for its share of the progress.
-inline constexpr int kDrapeStages = 4, kAlterStages = 10;
+inline constexpr int kDrapeStages = 4, kAlterStages = 11;
 
 // Both throw what their stages throw.
 Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput& body, const AlterOptions& options,

@@ -126,20 +126,12 @@ Record alteration_record(const AlterPatternResult& altered) {
   return record;
 }
 
-Record body_record(const Body& body) {
-  Record measurements;
-  for (const auto& [measure, metres] : body.measurements) measurements.add(measure + "_mm", metres * kMmPerMetre);
-  Record record;
-  record.add("name", body.name)
-      .add("kind", body.kind == BodyKind::Human ? "human" : "form")
-      .add("vertices", body.surface.vertex_count())
-      .add("triangles", body.surface.triangle_count())
-      .add("measurements", std::move(measurements));
-  std::vector<double> matrix;
-  for (int r = 0; r < 4; ++r)
-    for (int c = 0; c < 4; ++c) matrix.push_back(body.normalised_from_file(r, c));
-  record.add("normalised_from_file", Record::Value(std::move(matrix)));
-  return record;
+Record edges_record(const FitPatternEdgesResult& edges) {
+  return Record()
+      .add("largest_deviation_mm", edges.largest_deviation * kMmPerMetre)
+      .add("largest_seam_mismatch_mm", edges.largest_seam_mismatch * kMmPerMetre)
+      .add("bent_edges", edges.bent_edges)
+      .add("polyline_edges", edges.polyline_edges);
 }
 
 }  // namespace toile

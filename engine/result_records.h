@@ -12,6 +12,6 @@ Record drape_record(const DrapeResult& result);  // quality and diagnostics
 Record fit_record(const Pattern& pattern, const FitComparison& comparison);
 Record derivation_record(const DerivedPattern& derived);
 Record alteration_record(const AlterPatternResult& altered);
-Record body_record(const Body& body);
+Record edges_record(const FitPatternEdgesResult& edges);
 
 }  // namespace toile

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // toile alter and toile drape: one job, from files to a folder of files.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
 #include "engine/core/content_hash.h"
+#include "engine/io/options_json.h"
 #include "engine/outputs.h"
+#include "server/app/body_source.h"
 #include "server/app/command.h"
 #include "server/app/files.h"
 
@@ -13,19 +16,19 @@ namespace {
 
 struct JobFiles {
   std::string garment, reference_body, target_body, options, out;
-  std::optional<int> triangles;
+  BodySource reference_source, target_source;
+  std::map<std::string, std::string> given;  // option name -> value, as on the command line
 };
 
-bool is_builtin(const std::string& name) {
-  return name.starts_with("builtin:");
+GarmentInput read_garment_input(const std::string& path) {
+  return {std::filesystem::path(path).filename().string(), read_file(path)};
 }
 
-BodyInput read_body_input(const std::string& file) {
-  return {file, is_builtin(file) ? Bytes() : read_file(file)};
-}
-
-std::string file_name(const std::string& path) {
-  return is_builtin(path) ? path : std::filesystem::path(path).filename().string();
+// The file first, then what the command line says.
+AlterOptions options_of(const JobFiles& files) {
+  AlterOptions options = files.options.empty() ? AlterOptions() : io::read_options(read_file(files.options));
+  for (const auto& [name, value] : files.given) io::set_option(options, name, value);
+  return options;
 }
 
 void write_outputs(const std::string& folder, const std::vector<OutputFile>& files) {
@@ -36,44 +39,44 @@ void write_outputs(const std::string& folder, const std::vector<OutputFile>& fil
   }
 }
 
-AlterOptions options_of(const JobFiles& files) {
-  AlterOptions options;
-  if (files.triangles) options.triangles = files.triangles;
-  return options;
-}
-
 void alter(const JobFiles& files, Context& context) {
   const AlterOptions options = options_of(files);
-  const GarmentInput garment{file_name(files.garment), read_file(files.garment)};
-  const BodyInput reference = read_body_input(files.reference_body), target = read_body_input(files.target_body);
+  const GarmentInput garment = read_garment_input(files.garment);
+  const BodyInput reference = read_body_input(files.reference_body, files.reference_source);
+  const BodyInput target = read_body_input(files.target_body, files.target_source);
   StageRunner runner(nullptr, &context.progress, kAlterStages);
   const AlterResult result = alter_garment(garment, reference, target, options, runner);
-  const JobInfo info{garment.name,
-                     file_name(files.reference_body),
-                     file_name(files.target_body),
-                     sha256_hex(garment.bytes),
-                     sha256_hex(reference.bytes),
-                     sha256_hex(target.bytes)};
-  write_outputs(files.out, alter_outputs(result, options, info));
+  write_outputs(files.out, alter_outputs(result, options, job_info(garment, reference, target)));
   write_outputs(files.out, {timings_output(runner.timings())});
 }
 
 void drape_one(const JobFiles& files, Context& context) {
   const AlterOptions options = options_of(files);
-  const GarmentInput garment{file_name(files.garment), read_file(files.garment)};
-  const BodyInput body = read_body_input(files.reference_body);
+  const GarmentInput garment = read_garment_input(files.garment);
+  const BodyInput body = read_body_input(files.reference_body, files.reference_source);
   StageRunner runner(nullptr, &context.progress, kDrapeStages);
   const auto draped = drape_garment(garment, body, options, runner);
-  const JobInfo info{
-      garment.name, file_name(files.reference_body), "", sha256_hex(garment.bytes), sha256_hex(body.bytes), ""};
-  write_outputs(files.out, drape_outputs(draped.value, options, info));
+  write_outputs(files.out, drape_outputs(draped.value, options, job_info(garment, body)));
   write_outputs(files.out, {timings_output(runner.timings())});
 }
 
-void add_common(CLI::App& command, JobFiles& files) {
-  command.add_option("--garment", files.garment, "GarmentCode specification (JSON)")->required();
-  command.add_option("--out", files.out, "folder for the results; made if needed")->required();
-  command.add_option("--triangles", files.triangles, "of the garment, 500 to 200000")->check(CLI::Range(500, 200000));
+std::string help_of(const io::OptionInfo& info) {
+  std::string help = "default " + info.default_json;
+  for (std::size_t i = 0; i < info.choices.size(); ++i) help += (i == 0 ? "; " : ", ") + info.choices[i];
+  return help;
+}
+
+// --stretch-limit for stretch_limit, and so on for every option of a job.
+void add_job_options(CLI::App& command, const std::shared_ptr<JobFiles>& files) {
+  command.add_option("--garment", files->garment, "GarmentCode specification (JSON)")->required();
+  command.add_option("--options", files->options, "options of the job (JSON)");
+  command.add_option("--out", files->out, "folder for the results; made if needed")->required();
+  for (const io::OptionInfo& info : io::list_options()) {
+    std::string flag = "--" + info.name;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    command.add_option_function<std::string>(
+        flag, [files, name = info.name](const std::string& value) { files->given[name] = value; }, help_of(info));
+  }
 }
 
 }  // namespace
@@ -81,18 +84,20 @@ void add_common(CLI::App& command, JobFiles& files) {
 void add_alter_command(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("alter", "alter a garment from a reference body to a target body");
   auto files = std::make_shared<JobFiles>();
-  add_common(*command, *files);
+  add_job_options(*command, files);
   command->add_option("--reference-body", files->reference_body, "body it fits: OBJ, PLY, STL or builtin:NAME")
       ->required();
   command->add_option("--target-body", files->target_body, "body it shall fit")->required();
+  add_body_options(*command, files->target_source);
   command->callback([files, &context] { alter(*files, context); });
 }
 
 void add_drape_command(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("drape", "drape a garment on a body and show how it fits");
   auto files = std::make_shared<JobFiles>();
-  add_common(*command, *files);
+  add_job_options(*command, files);
   command->add_option("--body", files->reference_body, "OBJ, PLY, STL or builtin:NAME")->required();
+  add_body_options(*command, files->reference_source);
   command->callback([files, &context] { drape_one(*files, context); });
 }
 
