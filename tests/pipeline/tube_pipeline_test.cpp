@@ -69,8 +69,10 @@ struct MemoryCache : StageCache {
 std::string bytes_of(const AlterResult& result) {
   std::string all;
   AlterOptions options = small();
-  options.outputs = {"reference_drape.obj", "target_before.obj"};
-  for (const OutputFile& file : alter_outputs(result, options, {}))
+  options.outputs = {"reference_drape.obj", "target_before.obj", "target_pattern.json", "ticket.json"};
+  const BodyInput body{.name = "builtin:tube-14-100", .bytes = {}};
+  const JobInfo info = job_info(tube_skirt(), body, body);
+  for (const OutputFile& file : alter_outputs(result, options, info))
     all.append(file.name).append(file.bytes.begin(), file.bytes.end());
   return all;
 }
