@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "engine/core/content_hash.h"
 #include "engine/io/body_json.h"
 #include "engine/io/options_json.h"
 #include "engine/io/record_json.h"
@@ -71,13 +70,7 @@ JobReport alter_job(const JobContext& context) {
   const BodyInput target = body_input(context.inputs.at("target_body"));
   StageRunner runner(context.stages, context.progress, kAlterStages);
   const AlterResult result = alter_garment(garment, reference, target, options, runner);
-  const JobInfo info{garment.name,
-                     reference.name,
-                     target.name,
-                     sha256_hex(garment.bytes),
-                     sha256_hex(reference.bytes),
-                     sha256_hex(target.bytes)};
-  return hand_over(context, alter_outputs(result, options, info), runner.timings());
+  return hand_over(context, alter_outputs(result, options, job_info(garment, reference, target)), runner.timings());
 }
 
 JobReport drape_job(const JobContext& context) {
@@ -86,8 +79,7 @@ JobReport drape_job(const JobContext& context) {
   const BodyInput body = body_input(context.inputs.at("reference_body"));
   StageRunner runner(context.stages, context.progress, kDrapeStages);
   const auto draped = drape_garment(garment, body, options, runner);
-  const JobInfo info{garment.name, body.name, "", sha256_hex(garment.bytes), sha256_hex(body.bytes), ""};
-  return hand_over(context, drape_outputs(draped.value, options, info), runner.timings());
+  return hand_over(context, drape_outputs(draped.value, options, job_info(garment, body)), runner.timings());
 }
 
 JobReport inspect_body_job(const JobContext& context) {
