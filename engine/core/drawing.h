@@ -47,11 +47,13 @@ struct DrawingText {
   Vec2 at = Vec2::Zero();  // middle of the baseline
   double height = 8.0;     // of capitals
   std::string text;        // UTF-8
+  double angle = 0.0;      // of the baseline, rad, counter-clockwise
 };
 
 enum class PieceRole {
   Panel,      // a piece of the pattern, or what is kept of it
   Insertion,  // cloth to cut anew and sew in
+  Guide,      // shows how pieces go together; nothing to cut, so not for cutting machines
 };
 
 struct DrawingPiece {

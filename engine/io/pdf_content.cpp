@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/io/pdf_content.h"
 
+#include <cmath>
+
 #include "engine/core/drawing_marks.h"
 #include "engine/io/pdf_document.h"
 #include "engine/io/text_format.h"
@@ -93,11 +95,13 @@ void PdfContent::fill(const std::vector<Vec2>& points, const std::array<double, 
   out_ += "f*\n";
 }
 
-void PdfContent::text(const Vec2& at, double height, std::string_view utf8, PdfAlign align) {
+void PdfContent::text(const Vec2& at, double height, std::string_view utf8, PdfAlign align, double angle) {
   const double shift = align == PdfAlign::Left ? 0.0 : align == PdfAlign::Middle ? 0.5 : 1.0;
-  const double x = at.x() - shift * helvetica_width(utf8, height);
-  append(out_, {"0.1 0.1 0.12 rg BT /F1 ", number(height / kCapitals, 3), " Tf ", number(x, 3), " ", number(at.y(), 3),
-                " Td ", pdf_string(utf8), " Tj ET\n"});
+  const double c = std::cos(angle), s = std::sin(angle);
+  const Vec2 start = at - shift * helvetica_width(utf8, height) * Vec2(c, s);
+  append(out_, {"0.1 0.1 0.12 rg BT /F1 ", number(height / kCapitals, 3), " Tf ", number(c, 6), " ", number(s, 6), " ",
+                number(-s, 6), " ", number(c, 6), " ", number(start.x(), 3), " ", number(start.y(), 3), " Tm ",
+                pdf_string(utf8), " Tj ET\n"});
 }
 
 void PdfContent::form(std::string_view name) {
@@ -106,6 +110,7 @@ void PdfContent::form(std::string_view name) {
 
 void PdfContent::piece(const DrawingPiece& piece, const Vec2& shift) {
   for (const DrawingLine& line : piece.lines) {
+    if (!line.closed) continue;
     if (line.kind == LineKind::Insertion) fill(moved(line.points, shift), kPaleBlue);
     if (line.kind == LineKind::Removal) fill(moved(line.points, shift), kPaleRed);
   }
@@ -119,7 +124,8 @@ void PdfContent::piece(const DrawingPiece& piece, const Vec2& shift) {
   }
   for (const DrawingNotch& notch : piece.notches)
     stroke(moved(notch_outline(notch), shift), false, {{0.1, 0.1, 0.12}, 0.5, {}});
-  for (const DrawingText& label : piece.texts) text(label.at + shift, label.height, label.text, PdfAlign::Middle);
+  for (const DrawingText& label : piece.texts)
+    text(label.at + shift, label.height, label.text, PdfAlign::Middle, label.angle);
 }
 
 }  // namespace toile::io

@@ -27,8 +27,8 @@ class PdfContent {
   void clip(const Vec2& low, const Vec2& high);
   void stroke(const std::vector<Vec2>& points, bool closed, const PdfStroke& style);
   void fill(const std::vector<Vec2>& points, const std::array<double, 3>& colour);
-  // `height` of capitals in mm; `at` on the baseline.
-  void text(const Vec2& at, double height, std::string_view utf8, PdfAlign align = PdfAlign::Left);
+  // `height` of capitals in mm; `at` on the baseline; `angle` of the baseline, rad, counter-clockwise.
+  void text(const Vec2& at, double height, std::string_view utf8, PdfAlign align = PdfAlign::Left, double angle = 0.0);
   void form(std::string_view name);
 
   // One piece moved by `shift`: every line in the style of its kind, notches and labels.

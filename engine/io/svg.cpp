@@ -2,6 +2,7 @@
 #include "engine/io/svg.h"
 
 #include "engine/core/drawing_marks.h"
+#include "engine/core/units.h"
 #include "engine/io/drawing_layout.h"
 #include "engine/io/text_format.h"
 
@@ -21,7 +22,14 @@ constexpr const char* kStyle =
     ".drawing .insertion{stroke:#2f5bd8;stroke-width:.5;fill:#4670eb;fill-opacity:.22}"
     ".drawing .removal{stroke:#c8281e;stroke-width:.5;fill:#e13c32;fill-opacity:.22}"
     ".drawing .label{font-family:Helvetica,Arial,sans-serif;fill:#1c1c20;text-anchor:middle;stroke:none}"
+    ".drawing .open{fill:none}"
     ".drawing .added .cut{stroke:#2f5bd8}";
+
+// Filled kinds have a second class for lines that bound nothing.
+std::string_view open_line_name(LineKind kind) {
+  if (kind == LineKind::Insertion) return "insertion open";
+  return kind == LineKind::Removal ? "removal open" : line_kind_name(kind);
+}
 
 class SvgWriter {
  public:
@@ -83,9 +91,13 @@ class SvgWriter {
 
   void label(const DrawingText& text) {
     const double x = text.at.x() + shift_.x(), y = layout_.size.y() - text.at.y() - shift_.y();
+    const std::string at_x = number(x, 2), at_y = number(y, 2);
     // Capitals are 0.72 of the font size tall.
-    append(out_, {"<text class=\"label\" x=\"", number(x, 2), "\" y=\"", number(y, 2), "\" font-size=\"",
-                  number(text.height / 0.72, 2), "\">", escape_xml(text.text), "</text>\n"});
+    append(out_,
+           {"<text class=\"label\" x=\"", at_x, "\" y=\"", at_y, "\" font-size=\"", number(text.height / 0.72, 2)});
+    const std::string degrees = number(-text.angle * kDegreePerRadian, 2);
+    if (degrees != "0") append(out_, {"\" transform=\"rotate(", degrees, " ", at_x, " ", at_y, ")"});
+    append(out_, {"\">", escape_xml(text.text), "</text>\n"});
   }
 
   void piece(const DrawingPiece& piece, std::size_t index) {
@@ -96,7 +108,7 @@ class SvgWriter {
       if (line.kind == LineKind::Grainline)
         for (const auto& stroke : grainline_strokes(line)) path(line_kind_name(line.kind), stroke, false);
       else
-        path(line_kind_name(line.kind), line.points, line.closed);
+        path(line.closed ? line_kind_name(line.kind) : open_line_name(line.kind), line.points, line.closed);
     }
     for (const DrawingNotch& notch : piece.notches) path("notch", notch_outline(notch), false);
     for (const DrawingText& text : piece.texts) label(text);

@@ -105,11 +105,12 @@ void Canvas::circle(const Vec2& centre, double radius, double width, Rgb colour)
   line(points, width, colour, true);
 }
 
-void Canvas::text(const Vec2& at, double height, std::string_view text, Rgb colour, Anchor anchor) {
+void Canvas::text(const Vec2& at, double height, std::string_view text, Rgb colour, Anchor anchor, double angle) {
   const double shift = anchor == Anchor::Left ? 0.0 : anchor == Anchor::Middle ? 0.5 : 1.0;
-  const double left = at.x() - shift * text_width(text, height);
+  const double left = -shift * text_width(text, height);
+  const Vec2 along(std::cos(angle), -std::sin(angle)), up(-std::sin(angle), -std::cos(angle));
   for (auto& stroke : text_strokes(text, height)) {
-    for (Vec2& p : stroke) p = Vec2(left + p.x(), at.y() - p.y());
+    for (Vec2& p : stroke) p = at + (left + p.x()) * along + p.y() * up;
     line(stroke, kTextWeight * height, colour);
   }
 }

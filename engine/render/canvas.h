@@ -26,8 +26,9 @@ class Canvas {
   void line(const std::vector<Vec2>& points, double width, Rgb colour, bool closed = false);
   void dashed_line(const std::vector<Vec2>& points, double width, Rgb colour, double dash, double gap);
   void circle(const Vec2& centre, double radius, double width, Rgb colour);
-  // `height` is that of capitals; `at` lies on the baseline.
-  void text(const Vec2& at, double height, std::string_view text, Rgb colour, Anchor anchor = Anchor::Left);
+  // `height` is that of capitals; `at` lies on the baseline; `angle` of the baseline, rad, counter-clockwise as seen.
+  void text(const Vec2& at, double height, std::string_view text, Rgb colour, Anchor anchor = Anchor::Left,
+            double angle = 0.0);
   // `part` is already supersampled by the same factor; its upper left corner goes to pixel (x, y).
   void paste_supersampled(const Image& part, int x, int y);
 

@@ -17,12 +17,15 @@ constexpr int kMargin = 16;       // pixels
 constexpr double kLeastText = 7;  // pixels; smaller labels are left out ...
 constexpr double kReadable = 4;   // mm; ... unless they are this tall on the cloth
 
-// What a piece is filled with: its innermost closed line that bounds cloth.
-const DrawingLine* body_of(const DrawingPiece& piece) {
-  for (const LineKind kind : {LineKind::Cut, LineKind::Stitch})
+// What a piece is filled with: its closed lines that bound cloth.
+std::vector<const DrawingLine*> cloth_of(const DrawingPiece& piece) {
+  std::vector<const DrawingLine*> cloth;
+  for (const LineKind kind : {LineKind::Cut, LineKind::Stitch}) {
     for (const DrawingLine& line : piece.lines)
-      if (line.kind == kind && line.closed) return &line;
-  return nullptr;
+      if (line.kind == kind && line.closed) cloth.push_back(&line);
+    if (!cloth.empty()) break;
+  }
+  return cloth;
 }
 
 class PicturePainter {
@@ -71,17 +74,17 @@ class PicturePainter {
     const DrawingPiece& piece = drawing_.pieces[index];
     shift_ = layout_.corners[index] - lows_[index];
     const bool added = piece.role == PieceRole::Insertion;
-    if (const DrawingLine* body = body_of(piece))
-      canvas_->fill(pixels(body->points), added ? mix(kWhite, kInsertion, 0.25) : Rgb{246, 244, 240});
+    for (const DrawingLine* cloth : cloth_of(piece))
+      canvas_->fill(pixels(cloth->points), added ? mix(kWhite, kInsertion, 0.25) : Rgb{246, 244, 240});
     if (index < options_.paint.size()) paint_triangles(options_.paint[index]);
     for (const DrawingLine& line : piece.lines)
-      if (line.kind == LineKind::Insertion || line.kind == LineKind::Removal)
+      if (line.closed && (line.kind == LineKind::Insertion || line.kind == LineKind::Removal))
         canvas_->fill(pixels(line.points), mix(kWhite, line.kind == LineKind::Insertion ? kInsertion : kRemoval, 0.4));
     for (const DrawingLine& line : piece.lines) paint_line(line);
     for (const DrawingNotch& notch : piece.notches) canvas_->line(pixels(notch_outline(notch)), 1.2, kInk);
     for (const DrawingText& text : piece.texts) {
       const double height = std::min(14.0, std::max(scale_ * text.height, text.height >= kReadable ? kLeastText : 0.0));
-      if (height >= kLeastText) canvas_->text(pixel(text.at), height, text.text, kInk, Anchor::Middle);
+      if (height >= kLeastText) canvas_->text(pixel(text.at), height, text.text, kInk, Anchor::Middle, text.angle);
     }
   }
 
