@@ -19,13 +19,6 @@ constexpr double kMaxRelativeParameter = 1e4;
 constexpr double kMaxArcRadius = 1e4;  // m; flatter arcs are lines in all but name
 constexpr std::size_t kMaxPolylinePoints = 100'000;
 
-Mat3 rotation_of_degrees(const Vec3& degrees) {
-  const Vec3 r = degrees * kRadianPerDegree;
-  return (Eigen::AngleAxisd(r.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(r.y(), Vec3::UnitY()) *
-          Eigen::AngleAxisd(r.x(), Vec3::UnitX()))
-      .toRotationMatrix();
-}
-
 class SpecificationReader {
  public:
   explicit SpecificationReader(const JsonView& root) : root_(root), body_(root.at("pattern")) {
@@ -68,19 +61,13 @@ class SpecificationReader {
     return names;
   }
 
-  Vec3 vector3(const JsonView& value, double bound) const {
-    if (value.size() != 3) value.fail("expected three numbers");
-    return {value.at(std::size_t{0}).number(-bound, bound), value.at(1).number(-bound, bound),
-            value.at(2).number(-bound, bound)};
-  }
-
   void read_panel(const std::string& name, const JsonView& value) {
     Panel panel;
     panel.name = name;
     if (const auto label = value.find("label")) panel.label = label->text();
     if (const auto translation = value.find("translation"))
-      panel.translation = vector3(*translation, kMaxCoordinate / unit_) * unit_;
-    if (const auto rotation = value.find("rotation")) panel.rotation = rotation_of_degrees(vector3(*rotation, 1e4));
+      panel.translation = translation->vector3(kMaxCoordinate / unit_) * unit_;
+    if (const auto rotation = value.find("rotation")) panel.rotation = rotation_of_degrees(rotation->vector3(1e4));
     read_outline(value, panel);
     pattern_.panels.push_back(std::move(panel));
   }
@@ -203,6 +190,13 @@ class SpecificationReader {
 };
 
 }  // namespace
+
+Mat3 rotation_of_degrees(const Vec3& degrees) {
+  const Vec3 r = degrees * kRadianPerDegree;
+  return (Eigen::AngleAxisd(r.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(r.y(), Vec3::UnitY()) *
+          Eigen::AngleAxisd(r.x(), Vec3::UnitX()))
+      .toRotationMatrix();
+}
 
 Pattern read_garmentcode(std::span<const std::uint8_t> bytes) {
   const nlohmann::json document = parse_json(bytes, "garment");

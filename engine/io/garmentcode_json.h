@@ -27,4 +27,7 @@ Pattern read_garmentcode(std::span<const std::uint8_t> bytes);
 // the `toile` block too when nothing in it differs. Deterministic.
 std::string write_garmentcode(const Pattern& pattern);
 
+// The turn of a placement: about the fixed world axes X, then Y, then Z, in degrees.
+Mat3 rotation_of_degrees(const Vec3& degrees);
+
 }  // namespace toile::io

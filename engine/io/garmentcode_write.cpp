@@ -34,8 +34,7 @@ json relative(const Vec2& point, const Vec2& start, const Vec2& end) {
 
 json curvature_json(const EdgeCurve& curve, const Vec2& start, const Vec2& end) {
   switch (curve.kind) {
-    case CurveKind::Line:
-      return nullptr;
+    case CurveKind::Line: return nullptr;
     case CurveKind::QuadraticBezier:
       return {{"type", "quadratic"}, {"params", json::array({relative(curve.control[0], start, end)})}};
     case CurveKind::CubicBezier:

@@ -175,4 +175,9 @@ Vec2 JsonView::point(double bound) const {
   return {at(0).number(-bound, bound), at(1).number(-bound, bound)};
 }
 
+Vec3 JsonView::vector3(double bound) const {
+  if (size() != 3) fail("expected three numbers");
+  return {at(std::size_t{0}).number(-bound, bound), at(1).number(-bound, bound), at(2).number(-bound, bound)};
+}
+
 }  // namespace toile::io

@@ -56,7 +56,8 @@ class JsonView {
   int integer(int least, int most) const;
   bool boolean() const;
   std::string text(std::size_t longest = 1000) const;
-  Vec2 point(double bound) const;  // [x, y], each within +-bound
+  Vec2 point(double bound) const;    // [x, y], each within +-bound
+  Vec3 vector3(double bound) const;  // [x, y, z], each within +-bound
 
   [[noreturn]] void fail(const std::string& message, ErrorCode code = ErrorCode::FileMalformed) const;
 

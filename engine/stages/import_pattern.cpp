@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/stages/import_pattern.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "engine/geometry/curve.h"
 #include "engine/geometry/self_crossing.h"
 #include "engine/io/garmentcode_json.h"
+#include "engine/io/obj_garment.h"
 
 namespace toile {
 
@@ -122,6 +124,11 @@ void check_seams(const Pattern& pattern) {
   }
 }
 
+bool looks_like_json(std::span<const std::uint8_t> bytes) {
+  const auto first = std::find_if(bytes.begin(), bytes.end(), [](std::uint8_t c) { return c > ' '; });
+  return first == bytes.end() || *first == '{' || *first == '[';
+}
+
 }  // namespace
 
 void validate_pattern(const Pattern& pattern) {
@@ -139,6 +146,16 @@ Pattern import_pattern(std::span<const std::uint8_t> bytes, Progress* progress) 
   validate_pattern(pattern);
   report(progress, "import_pattern", 1.0);
   return pattern;
+}
+
+ImportedGarment import_garment(std::span<const std::uint8_t> bytes, const std::string& name,
+                               const ImportGarmentOptions& options, Progress* progress) {
+  if (looks_like_json(bytes)) return {import_pattern(bytes, progress), {}, {}};
+  report(progress, "import_pattern", 0.0);
+  io::ObjGarment garment = io::read_obj_garment(bytes, name, {options.metre_per_uv_unit, options.sidecar});
+  validate_pattern(garment.pattern);
+  report(progress, "import_pattern", 1.0);
+  return {std::move(garment.pattern), std::move(garment.mesh), std::move(garment.drape)};
 }
 
 }  // namespace toile
