@@ -38,10 +38,24 @@ std::string check_document(const Bytes& bytes, const std::string& schema_name, C
   return check.schema;
 }
 
+bool has_texture(const Bytes& bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return text.find("\nvt ") != text.npos;
+}
+
+// An OBJ with texture coordinates is a garment unless it is a body.
 std::string check_mesh(const Bytes& bytes, const std::string& path, Context& context) {
-  const ImportBodyResult result = import_body(bytes, path, {}, &context.progress);
-  return "body, " + std::to_string(result.file_vertices) + " vertices, " + std::to_string(result.file_triangles) +
-         " triangles";
+  try {
+    const ImportBodyResult result = import_body(bytes, path, {}, &context.progress);
+    return "body, " + std::to_string(result.file_vertices) + " vertices, " + std::to_string(result.file_triangles) +
+           " triangles";
+  } catch (const Error& error) {
+    const bool no_body = error.code == ErrorCode::BodyUnusable || error.code == ErrorCode::BodyNotRecognised;
+    if (!no_body || !has_texture(bytes)) throw;
+  }
+  const ImportedGarment garment = import_garment(bytes, path, {}, &context.progress);
+  return "garment, " + std::to_string(garment.pattern.panels.size()) + " panels, " +
+         std::to_string(garment.pattern.seams.size()) + " seams";
 }
 
 void run_check(const std::string& path, const std::string& schema, Context& context) {

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The tables of `toile-bench inputs`.
+#pragma once
+
+#include "tests/bench/bench.h"
+
+namespace toile::bench {
+
+void bench_meshing(const Arguments& arguments);  // panels of shared garments to triangles
+
+}  // namespace toile::bench
