@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "engine/core/content_hash.h"
-#include "engine/draw_alterations.h"
+#include "engine/draw_alteration.h"
 #include "engine/io/body_json.h"
 #include "engine/io/drape_obj.h"
 #include "engine/io/garmentcode_json.h"
@@ -157,7 +157,7 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
   const Pattern& pattern = r.reference.pattern;
   const PatternMesh& mesh = r.reference.mesh;
   const Pattern& target_pattern = r.target_pattern.pattern;
-  const Drawing drawing = draw_alterations(pattern, r.altered);
+  const Drawing drawing = draw_alteration(pattern, r.altered);
   const Ticket ticket = named_ticket(r, info);
   const std::vector<BodyZone> zones = body_zones(pattern, mesh, r.reference.drape.drape, r.reference.body);
   const FitComparison before = compare_fits(mesh, r.reference.fit, r.fit_before, {}, zones);
@@ -170,6 +170,7 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
   outputs.make("altered_pattern.svg", kSvg, [&] { return io::write_svg(drawing); });
   outputs.make("altered_pattern.pdf", "application/pdf", [&] { return io::write_pdf(drawing); });
   outputs.make("pattern.png", kPng, [&] { return write_png(draw_picture(drawing)); });
+  outputs.make("tears.png", kPng, [&] { return write_png(draw_picture(draw_tears(pattern, r.altered))); });
   outputs.make("target_pattern.json", kJson, [&] { return bytes_of(io::write_garmentcode(target_pattern)); });
   outputs.make("target_pattern.svg", kSvg, [&] { return io::write_svg(draw_changes(pattern, target_pattern)); });
   outputs.make("ticket.json", kJson, [&] { return write_json(io::ticket_record(ticket)); });
