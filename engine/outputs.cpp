@@ -2,11 +2,13 @@
 #include "engine/outputs.h"
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <functional>
 #include <iterator>
 
 #include "engine/core/content_hash.h"
+#include "engine/core/text.h"
 #include "engine/draw_alteration.h"
 #include "engine/io/body_json.h"
 #include "engine/io/drape_obj.h"
@@ -33,6 +35,12 @@ constexpr const char* kObj = "model/obj";
 constexpr const char* kPng = "image/png";
 constexpr const char* kSvg = "image/svg+xml";
 constexpr const char* kHtml = "text/html; charset=utf-8";
+// The printed pattern for each kind of printer.
+constexpr std::array<std::pair<const char*, io::PdfSheet>, 4> kPrints = {
+    {{"altered_pattern.pdf", io::PdfSheet::A4},
+     {"altered_pattern_letter.pdf", io::PdfSheet::Letter},
+     {"altered_pattern_a0.pdf", io::PdfSheet::A0},
+     {"altered_pattern_projector.pdf", io::PdfSheet::Projector}}};
 const io::SvgOptions kInlined{.test_square = false, .inlined = true};
 
 Bytes bytes_of(const std::string& text) {
@@ -92,12 +100,20 @@ Record head_record(const char* kind, const AlterOptions& options, const JobInfo&
   return record;
 }
 
-// One frame and one scale for all pictures of a job that are compared.
+// One scale for all pictures of a job.
 ViewOptions views_of(const char* title) {
   ViewOptions views;
   views.title = title;
   views.marks = 3;
   return views;
+}
+
+// One frame for the drapes that are compared.
+Box frame_of(const std::vector<const Drape*>& drapes) {
+  Box frame;
+  for (const Drape* drape : drapes) frame.add(drape->nodes);
+  frame.grow(ViewOptions().margin);
+  return frame;
 }
 
 // The ticket under the names the user knows the job's inputs by.
@@ -126,6 +142,17 @@ io::HtmlTable zone_table(const FitComparison& before, const FitComparison& ideal
     if (before.zones[z].area > 0.0 && static_cast<BodyZone>(z) != BodyZone::Whole)
       add(zone_name(static_cast<BodyZone>(z)), before.zones[z], ideal.zones[z]);
   return table;
+}
+
+std::vector<std::string> summary_of(const Ticket& ticket, const FitComparison& before, const FitComparison& ideal) {
+  const std::size_t count = ticket.operations.size();
+  const auto adds = static_cast<std::size_t>(
+      std::count_if(ticket.operations.begin(), ticket.operations.end(),
+                    [](const TicketOperation& o) { return o.fabric == FabricNeed::NeedsFabric; }));
+  return {print_text("%zu %s, %zu of them with new fabric.", count, count == 1 ? "operation" : "operations", adds),
+          print_text("Stretch differs from the reference fit by %s %% before and by %s %% with the target pattern "
+                     "(root mean square).",
+                     percent(before.whole.rms_stretch).c_str(), percent(ideal.whole.rms_stretch).c_str())};
 }
 
 }  // namespace
@@ -162,14 +189,20 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
   const std::vector<BodyZone> zones = body_zones(pattern, mesh, r.reference.drape.drape, r.reference.body);
   const FitComparison before = compare_fits(mesh, r.reference.fit, r.fit_before, {}, zones);
   const FitComparison ideal = compare_fits(mesh, r.reference.fit, r.derived.fit, {}, zones);
+  const Box frame = frame_of({&r.reference.drape.drape, &r.before.drape, &r.derived.drape.drape});
+  // Marks say how much tighter or looser the garment sits than on the reference body.
   const auto picture = [&](const Body& body, const DrapeResult& drape, const FittingMap& fit, const char* title) {
-    return render_views(&body.surface, &mesh, &drape.drape, &fit, views_of(title));
+    ViewOptions views = views_of(title);
+    views.frame = frame;
+    if (&fit != &r.reference.fit) views.reference = &r.reference.fit;
+    return render_views(&body.surface, &mesh, &drape.drape, &fit, views);
   };
 
   Outputs outputs(options);
   outputs.make("altered_pattern.svg", kSvg, [&] { return io::write_svg(drawing); });
-  outputs.make("altered_pattern.pdf", "application/pdf", [&] { return io::write_pdf(drawing); });
-  outputs.make("pattern.png", kPng, [&] { return write_png(draw_picture(drawing)); });
+  for (const auto& [name, sheet] : kPrints)
+    outputs.make(name, "application/pdf", [&, paper = sheet] { return io::write_pdf(drawing, {paper, {}}); });
+  const Bytes* pattern_png = outputs.make("pattern.png", kPng, [&] { return write_png(draw_picture(drawing)); });
   outputs.make("tears.png", kPng, [&] { return write_png(draw_picture(draw_tears(pattern, r.altered))); });
   outputs.make("target_pattern.json", kJson, [&] { return bytes_of(io::write_garmentcode(target_pattern)); });
   outputs.make("target_pattern.svg", kSvg, [&] { return io::write_svg(draw_changes(pattern, target_pattern)); });
@@ -183,16 +216,22 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
   });
   const Bytes* fit_before =
       outputs.make("fit_before.png", kPng, [&] { return picture(r.target_body, r.before, r.fit_before, "before"); });
+  const Bytes* fit_target = outputs.make(
+      "fit_target.png", kPng, [&] { return picture(r.target_body, r.derived.drape, r.derived.fit, "target pattern"); });
   outputs.make("report.html", kHtml, [&] {
     io::Report report;
     report.title = pattern.name;
     report.subtitle = "from " + ticket.reference_body + " to " + ticket.target_body;
     if (fit_reference) report.fits.push_back({*fit_reference, "On the reference body"});
     if (fit_before) report.fits.push_back({*fit_before, "On the target body, before alteration"});
+    if (fit_target) report.fits.push_back({*fit_target, "On the target body, cut by the target pattern"});
+    if (pattern_png) report.pictures.push_back({*pattern_png, "Numbers with + are insertions, with - removals"});
+    report.summary = summary_of(ticket, before, ideal);
     report.zones = {zone_table(before, ideal)};
     report.ticket = &ticket;
     report.pattern_svg = io::write_svg(drawing, kInlined);
     report.quality = quality_record(r.before.quality);
+    for (const auto& [name, value] : r.target_body.measurements) report.measurements.add(name + "_m", value);
     report.options = io::options_record(options);
     return io::write_report_html(report);
   });

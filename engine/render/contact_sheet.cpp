@@ -89,28 +89,44 @@ std::optional<std::size_t> view_of(const std::vector<Surface>& surfaces, const L
   return best;
 }
 
-void draw_mark(Canvas& canvas, const Camera& camera, const Vec2& corner, const Mark& mark) {
-  const Vec3 at = camera.project(mark.point);
-  const Vec2 centre = corner + at.head<2>();
-  canvas.circle(centre, kMarkRadius, 4.0, kWhite);
-  canvas.circle(centre, kMarkRadius, 1.8, kInk);
-  const double width = text_width(mark.text, kCaption), beside = kMarkRadius + 5;
-  const bool to_left = at.x() + beside + width > camera.width;
-  const Vec2 text = centre + Vec2(to_left ? -beside - width : beside, 0.5 * kCaption);
-  const Vec2 low = text + Vec2(-3, 4), high = text + Vec2(width + 3, -kCaption - 4);
+// A mark's words on their ground, with the circle they belong to; pixels of the sheet.
+struct MarkPlace {
+  Vec2 centre, text, low, high;  // low, high: of the ground and the circle together
+
+  MarkPlace(const Camera& camera, const Vec2& corner, const Mark& mark) {
+    const Vec3 at = camera.project(mark.point);
+    centre = corner + at.head<2>();
+    const double width = text_width(mark.text, kCaption), beside = kMarkRadius + 5;
+    const bool to_left = at.x() + beside + width > camera.width;
+    text = centre + Vec2(to_left ? -beside - width : beside, 0.5 * kCaption);
+    low = (text + Vec2(-3, -kCaption - 4)).cwiseMin(centre - Vec2::Constant(kMarkRadius));
+    high = (text + Vec2(width + 3, 4)).cwiseMax(centre + Vec2::Constant(kMarkRadius));
+  }
+  bool meets(const MarkPlace& other) const {
+    return (low.array() < other.high.array()).all() && (other.low.array() < high.array()).all();
+  }
+};
+
+void draw_mark(Canvas& canvas, const MarkPlace& place, const std::string& words) {
+  canvas.circle(place.centre, kMarkRadius, 4.0, kWhite);
+  canvas.circle(place.centre, kMarkRadius, 1.8, kInk);
+  const Vec2 low = place.text + Vec2(-3, 4), high = place.text + Vec2(text_width(words, kCaption) + 3, -kCaption - 4);
   canvas.fill({low, {high.x(), low.y()}, high, {low.x(), high.y()}}, kWhite);
-  canvas.text(text, kCaption, mark.text, kInk);
+  canvas.text(place.text, kCaption, words, kInk);
 }
 
 void draw_marks(Canvas& canvas, const Layout& layout, const std::vector<Surface>& surfaces,
                 const SheetOptions& options) {
-  int drawn = 0;
+  std::vector<MarkPlace> drawn;
   for (const Mark& mark : options.marks) {
-    if (drawn >= options.marks_drawn) return;
+    if (static_cast<int>(drawn.size()) >= options.marks_drawn) return;
     const auto view = view_of(surfaces, layout, mark);
     if (!view) continue;
-    draw_mark(canvas, layout.cameras[*view], Vec2(layout.left[*view], layout.top), mark);
-    ++drawn;
+    const MarkPlace place(layout.cameras[*view], Vec2(layout.left[*view], layout.top), mark);
+    // Of two marks that would cover each other the more important one stays.
+    if (std::any_of(drawn.begin(), drawn.end(), [&](const MarkPlace& other) { return place.meets(other); })) continue;
+    draw_mark(canvas, place, mark.text);
+    drawn.push_back(place);
   }
 }
 
