@@ -64,8 +64,9 @@ class SvgWriter {
     const std::string width = number(layout_.size.x(), 3), height = number(layout_.size.y(), 3);
     if (!options_.inlined) out_ += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
     // Its own class keeps the styles inside when the drawing stands in a page.
+    out_ += options_.inlined ? "<svg class=\"drawing page\" " : "<svg class=\"drawing\" ";
     out_ +=
-        "<svg class=\"drawing\" xmlns=\"http://www.w3.org/2000/svg\" "
+        "xmlns=\"http://www.w3.org/2000/svg\" "
         "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" ";
     if (!options_.inlined) append(out_, {"width=\"", width, "mm\" height=\"", height, "mm\" "});
     append(out_, {"viewBox=\"0 0 ", width, " ", height, "\">\n"});
