@@ -27,14 +27,20 @@ void archive(A& a, BodyLevels& v) {
 template <class A>
 void archive(A& a, DrapeOptions& v) {
   auto& [friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, lift, drafted_for,
-         keep_drape] = v;
+         keep_drape, first_rung] = v;
   a(friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, lift, drafted_for,
-    keep_drape);
+    keep_drape, first_rung);
+}
+template <class A>
+void archive(A& a, DrapeFinding& v) {
+  auto& [name, message, refused] = v;
+  a(name, message, refused);
 }
 template <class A>
 void archive(A& a, DrapeDiagnostics& v) {
-  auto& [upper_shift, bodice, hold_height, sewing_iterations, iterations, evaluations, energy, residual, stalled] = v;
-  a(upper_shift, bodice, hold_height, sewing_iterations, iterations, evaluations, energy, residual, stalled);
+  auto& [upper_shift, bodice, hold_height, sewing_iterations, iterations, evaluations, energy, stalled, rung, findings] =
+      v;
+  a(upper_shift, bodice, hold_height, sewing_iterations, iterations, evaluations, energy, stalled, rung, findings);
 }
 template <class A>
 void archive(A& a, StrainPercentiles& v) {

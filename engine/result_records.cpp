@@ -50,7 +50,12 @@ Record drape_record(const DrapeResult& result) {
       .add("iterations", d.iterations)
       .add("energy_evaluations", d.evaluations)
       .add("energy_j", d.energy)
-      .add("stalled", d.stalled);
+      .add("stalled", d.stalled)
+      .add("rung", d.rung);
+  std::vector<Record> findings;
+  for (const DrapeFinding& finding : d.findings)
+    findings.push_back(Record().add("name", finding.name).add("message", finding.message).add("refused", finding.refused));
+  record.add("findings", std::move(findings));
   return record;
 }
 

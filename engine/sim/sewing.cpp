@@ -57,6 +57,7 @@ class SewingSolver {
   }
 
   const Points3& nodes() const { return x_; }
+  void set_thickness(double thickness) { thickness_ = thickness; }
 
  private:
   Vec3 push_out(Vec3 p) {
@@ -85,13 +86,15 @@ class SewingSolver {
 
 SewingResult sew(DrapeEnergy& energy, SignedField& field, double thickness, const Points3& start,
                  const SewingOptions& options, Progress* progress) {
-  SewingSolver solver(energy, field, thickness, start, options);
+  SewingSolver solver(energy, field, thickness - options.growth, start, options);
   SewingResult result;
   for (std::size_t s = 0; s < options.stages.size(); ++s) {
     const SewingStage& stage = options.stages[s];
     solver.factor(stage.sigma);
     for (int i = 0; i < stage.iterations; ++i) {
       check_cancelled(progress);
+      const double grown = std::min(1.0, static_cast<double>(result.iterations) / options.growth_iterations);
+      solver.set_thickness(thickness - options.growth * (1 - grown));
       result.last_move = solver.step(stage.relaxation);
       ++result.iterations;
       if (s + 1 == options.stages.size() && result.last_move < options.stop_move) break;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/stages/drape.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -11,6 +12,11 @@
 
 namespace toile {
 namespace {
+
+// The retry ladder: 0 as designed; 1 lifted more and pushed out harder at first; 2 grown from inside the body.
+constexpr int kLastRung = 2;
+constexpr double kMoreLift = 0.03, kGrowth = 0.025;  // m
+constexpr SewingStage kFirmStage{10000, 1.0, 40};
 
 void check_options(const DrapeOptions& o) {
   const auto check = [](bool good, const char* name, const char* range) {
@@ -25,6 +31,8 @@ void check_options(const DrapeOptions& o) {
   check(o.contact_stiffness > 0, "contact_stiffness", "positive");
   check(o.iterations >= 0 && o.iterations <= 100000, "iterations", "0 to 100000");
   check(o.stop_residual > 0, "stop_residual", "positive");
+  check(o.lift >= 0 && o.lift <= 0.1, "lift", "0 to 0.1 m");
+  check(o.first_rung >= 0 && o.first_rung <= kLastRung, "first_rung", "0 to 2");
 }
 
 class Draper {
@@ -39,40 +47,69 @@ class Draper {
         cloth_(make_cloth(pattern, mesh)) {
     thickness_ = options.thickness + cloth_.mean_edge * cloth_.mean_edge / (8 * options.sag_radius);
     if (body_.kind == BodyKind::Human && !body_.skeleton) body_.skeleton = find_skeleton(body_.surface).skeleton;
-    if (body_.skeleton) classify();
-    const bool armless = body_.skeleton && !result_.diagnostics.bodice;
+  }
+
+  DrapeResult from_flat() {
+    prepare(placed_vertices(pattern_, mesh_));
+    for (int rung = options_.first_rung;; ++rung) {
+      attempt_from_flat(rung);
+      const std::vector<DrapeFinding>& findings = result_.diagnostics.findings;
+      const auto refused = std::find_if(findings.begin(), findings.end(), [](const auto& f) { return f.refused; });
+      if (refused == findings.end()) return result_;
+      if (rung == kLastRung)
+        throw Error(ErrorCode::DrapeFailed, "garment",
+                    "no acceptable drape on this body: " + refused->message +
+                        "; check that the garment is placed round a body of this size and that its seams are right");
+    }
+  }
+
+  DrapeResult from_start(const Points3& start) {
+    Points3 vertices(mesh_.vertex_count(), 3);
+    for (int v = 0; v < mesh_.vertex_count(); ++v)
+      vertices.row(v) = start.row(mesh_.node_of_vertex[static_cast<std::size_t>(v)]);
+    levels_are_own_ = true;
+    prepare(vertices);
+    if (!result_.diagnostics.bodice) hold_waist(start);
+    finish(start);
+    for (const DrapeFinding& finding : result_.diagnostics.findings)
+      if (finding.name == "not_finite") throw Error(ErrorCode::DrapeFailed, "garment", finding.message);
+    return result_;
+  }
+
+ private:
+  // Which panel dresses what, told by `vertices` (#V x 3), and the field that suits.
+  void prepare(const Points3& vertices) {
+    if (body_.skeleton) {
+      guides_ = find_body_guides(body_, SurfaceTree(body_.surface.vertices, body_.surface.triangles));
+      levels_ = levels_are_own_ ? guides_.levels : options_.drafted_for.value_or(guides_.levels);
+      garment_ = classify_panels(pattern_, mesh_, vertices, guides_, levels_);
+      result_.diagnostics.bodice = garment_.bodice;
+    }
+    const bool armless = body_.skeleton && !garment_.bodice;
     const TriangleMesh surface = armless ? body_without_arms(body_) : body_.surface;
     field_ = std::make_unique<SurfaceField>(surface.vertices, surface.triangles);
   }
 
-  DrapeResult from_flat() {
+  void attempt_from_flat(int rung) {
     report(progress_, "sew", 0);
-    const Points3 start = body_.skeleton ? arranged() : welded(mesh_, placed_vertices(pattern_, mesh_));
+    result_.diagnostics.rung = rung;
+    SewingOptions sewing;
+    if (rung == 1) sewing.stages.insert(sewing.stages.begin(), kFirmStage);
+    if (rung == 2) sewing.growth = kGrowth;
+    const Points3 start = body_.skeleton ? arranged(rung == 1 ? options_.lift + kMoreLift : options_.lift)
+                                         : welded(mesh_, placed_vertices(pattern_, mesh_));
+    holds_.clear();
     if (!result_.diagnostics.bodice) hold_waist(start);
     DrapeEnergy energy(cloth_, nullptr, 0.0);
     energy.holds = holds_;
-    const SewingResult sewn = sew(energy, *field_, thickness_, start, {}, progress_);
+    const SewingResult sewn = sew(energy, *field_, thickness_, start, sewing, progress_);
     result_.diagnostics.sewing_iterations = sewn.iterations;
-    return from(sewn.nodes);
+    finish(sewn.nodes);
   }
 
-  DrapeResult from_start(const Points3& start) {
-    if (!result_.diagnostics.bodice) hold_waist(start);
-    return from(start);
-  }
-
- private:
-  void classify() {
-    const SurfaceTree tree(body_.surface.vertices, body_.surface.triangles);
-    guides_ = find_body_guides(body_, tree);
-    levels_ = options_.drafted_for.value_or(guides_.levels);
-    garment_ = classify_panels(pattern_, mesh_, placed_vertices(pattern_, mesh_), guides_, levels_);
-    result_.diagnostics.bodice = garment_.bodice;
-  }
-
-  Points3 arranged() {
+  Points3 arranged(double lift) {
     ArrangeOptions options;
-    options.lift = options_.lift;
+    options.lift = lift;
     options.thickness = thickness_;
     const ArrangeResult arrangement = arrange_panels(pattern_, mesh_, garment_, guides_, levels_, *field_, options);
     result_.diagnostics.upper_shift = arrangement.upper_shift;
@@ -81,25 +118,28 @@ class Draper {
 
   // The waist line may not sink below the mean height it has at the start.
   void hold_waist(const Points3& start) {
-    const std::vector<int> nodes = waist_nodes(pattern_, mesh_, placed_vertices(pattern_, mesh_));
+    waist_ = waist_nodes(pattern_, mesh_, placed_vertices(pattern_, mesh_));
+    const std::vector<int>& nodes = waist_;
     double height = 0;
     for (int n : nodes) height += start(n, 1) / static_cast<double>(nodes.size());
     for (int n : nodes) holds_.push_back({n, height, options_.contact_stiffness * cloth_.node_area[n]});
     result_.diagnostics.hold_height = height;
   }
 
-  DrapeResult from(const Points3& start) {
+  void finish(const Points3& start) {
     if (options_.keep_drape)
       result_.drape.nodes = start;
     else
       relax_from(start);
     const DrapeQuality solved = result_.quality;
-    result_.quality = measure_drape(mesh_, field_->tree(), result_.drape);
+    if (result_.drape.nodes.allFinite()) result_.quality = measure_drape(mesh_, field_->tree(), result_.drape);
     result_.quality.rest = solved.rest;
     result_.quality.residual = solved.residual;
     result_.quality.settling_move = solved.settling_move;
+    GuardScene scene{mesh_, nullptr, nullptr, waist_, result_.diagnostics.hold_height};
+    if (body_.skeleton) scene.garment = &garment_, scene.guides = &guides_;
+    result_.diagnostics.findings = check_drape(scene, result_.drape, result_.quality);
     report(progress_, "drape", 1);
-    return result_;
   }
 
   void relax_from(const Points3& start) {
@@ -138,7 +178,9 @@ class Draper {
   GarmentClass garment_;
   std::unique_ptr<SurfaceField> field_;
   double thickness_ = 0;
+  std::vector<int> waist_;
   std::vector<Hold> holds_;
+  bool levels_are_own_ = false;  // the garment is judged where it hangs on this body, not where it was placed
   DrapeResult result_;
 };
 

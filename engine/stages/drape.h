@@ -8,8 +8,7 @@
 #pragma once
 
 #include "engine/core/progress.h"
-#include "engine/stages/body_guides.h"
-#include "engine/stages/drape_quality.h"
+#include "engine/stages/drape_guards.h"
 
 namespace toile {
 
@@ -19,11 +18,12 @@ struct DrapeOptions {
   double thickness = 0.003;  // distance of the cloth's nodes from the body, m, 0..0.05, to which the chord sag is added
   double sag_radius = 0.06;  // m, > 0: h^2 / (8 R) is added to the thickness, R the smallest limb radius
   double contact_stiffness = 2e6;  // N/m^3, > 0
-  int iterations = 800;            // of the relaxation, at most, 0..100000
+  int iterations = 1500;           // of the relaxation, at most, 0..100000; 300 settle the placement
   double stop_residual = 0.3;      // residual at which it stops, in mean node weights, > 0
   double lift = 0.015;             // m the torso is arranged above the height at which it clears the shoulders, 0..0.1
   std::optional<BodyLevels> drafted_for;  // levels of the body the pattern's placement belongs to; empty: this body
   bool keep_drape = false;                // take a given start as the drape, without moving it (drape_from only)
+  int first_rung = 0;  // of the retry ladder to begin with, 0..2: as designed, higher and firmer, grown from inside
 };
 
 struct DrapeDiagnostics {
@@ -33,9 +33,10 @@ struct DrapeDiagnostics {
   int sewing_iterations = 0;
   int iterations = 0;
   int evaluations = 0;
-  double energy = 0.0;    // J
-  double residual = 0.0;  // see DrapeQuality
-  bool stalled = false;   // no further decrease could be found
+  double energy = 0.0;                 // J
+  bool stalled = false;                // no further decrease could be found
+  int rung = 0;                        // of the retry ladder that gave the result
+  std::vector<DrapeFinding> findings;  // warnings; from flat none is a refusal
 };
 
 struct DrapeResult {
@@ -44,12 +45,13 @@ struct DrapeResult {
   DrapeDiagnostics diagnostics;
 };
 
-// From flat. Requires a mesh of `pattern`. Throws Error{DrapeFailed} if no acceptable drape is found,
-// Error{OptionInvalid}.
+// From flat. Requires a mesh of `pattern`. An attempt that a guard refuses (drape_guards.h) is repeated on the next
+// rung of the ladder. Throws Error{DrapeFailed} with the findings of the last rung, Error{OptionInvalid}.
 DrapeResult drape(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const DrapeOptions& options,
                   Progress* progress);
 
-// From a given start, #N x 3 in the body's frame.
+// From a given start, #N x 3 in the body's frame. Findings are reported, not acted upon; Error{DrapeFailed} only if the
+// nodes are not finite.
 DrapeResult drape_from(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const Drape& start,
                        const DrapeOptions& options, Progress* progress);
 

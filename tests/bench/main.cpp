@@ -15,6 +15,8 @@ int main(int argc, char** argv) {
   const std::map<std::string, Entry> benches = {
       {"alteration", {"draw an alteration: GARMENT.json ACROSS ALONG FOLDER", bench_alteration}},
       {"inputs", {"time against quality of reading and meshing what users hand in", bench_inputs}},
+      {"drape",
+       {"sew and drape: [GARMENT...] [growth] [--triangles N] [--body NAME] [--pictures FOLDER]", bench_drape}},
       {"panels", {"draw a flat pattern: GARMENT.json OUT.png|OUT.svg", bench_panels}},
       {"pictures", {"all a job shows of a drape: GARMENT.json BODY.obj FOLDER", bench_pictures}},
       {"view", {"look at a body and a drape: BODY.obj [DRAPE.obj] OUT.png [--stretch 0.1]", bench_view}},
