@@ -5,6 +5,7 @@
 #include "engine/io/base64.h"
 #include "engine/io/record_json.h"
 #include "engine/io/report_html.h"
+#include "engine/io/schema_check.h"
 #include "engine/io/ticket_document.h"
 #include "tests/support/sample_ticket.h"
 
@@ -57,6 +58,18 @@ TEST(TicketDocument, JsonCarriesMillimetresInTheOrderOfWork) {
   EXPECT_DOUBLE_EQ(insert["seam_allowance"]["left_mm"], -25.0);
   EXPECT_DOUBLE_EQ(insert["pieces"][0]["grain_deg"], 12.0);
   EXPECT_DOUBLE_EQ(insert["pieces"][0]["area_cm2"], 139.5);
+}
+
+TEST(TicketDocument, JsonAgreesWithItsSchemaAndAWrongOneDoesNot) {
+  const Bytes bytes = write_json(ticket_record(test::sample_ticket()));
+  const SchemaCheck check = check_schema(bytes);
+  EXPECT_EQ(check.schema, "ticket");
+  for (const SchemaProblem& problem : check.problems) ADD_FAILURE() << problem.pointer << ": " << problem.message;
+  auto json = nlohmann::json::parse(bytes.begin(), bytes.end());
+  json["operations"][0]["op"] = "cut_off";
+  json["operations"][1]["per_ply_mm"] = -1;
+  const std::string wrong = json.dump();
+  EXPECT_FALSE(check_schema(Bytes(wrong.begin(), wrong.end())).problems.empty());
 }
 
 TEST(TicketDocument, EdgesAreWholeNumbers) {
