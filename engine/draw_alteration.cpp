@@ -49,6 +49,21 @@ std::vector<Vec2> without_spikes(std::vector<Vec2> outline) {
   return outline;
 }
 
+// The outline with the wedges of its darts filled: folded cloth is not cut out.
+std::vector<Vec2> with_darts(const std::vector<Vec2>& outline, const std::vector<std::vector<Vec2>>& darts) {
+  if (darts.empty()) return outline;
+  Loops cloth = darts;
+  cloth.push_back(outline);
+  std::vector<Vec2> largest = outline;
+  double most = 0.0;
+  for (const PolygonWithHoles& part : polygon_union(cloth)) {
+    if (area(part) <= most) continue;
+    most = area(part);
+    largest = part.outline;
+  }
+  return without_spikes(largest);
+}
+
 // "+2" for the second insertion of a panel, "-2" for its second removal.
 std::string short_name(const AlteredRegion& region, char sign) {
   const std::size_t digits = region.name.find_last_not_of("0123456789") + 1;
@@ -157,7 +172,7 @@ class AlterationDrawer {
     for (std::size_t p = 0; p < alteration_.panels.size(); ++p) {
       const PanelAlteration& panel = alteration_.panels[p];
       const bool altered = !panel.insertions.empty() || !panel.removals.empty();
-      drawing_.pieces.push_back(altered ? kept_cloth(panel, before_.pieces[p]) : before_.pieces[p]);
+      drawing_.pieces.push_back(altered ? kept_cloth(static_cast<int>(p)) : before_.pieces[p]);
       if (panel.insertions.empty()) continue;
       drawing_.pieces.push_back(as_sewn(panel, before_.pieces[p]));
       for (const AlteredRegion& region : panel.insertions) add_insertion(panel, region);
@@ -167,8 +182,10 @@ class AlterationDrawer {
 
  private:
   // Labels and grainline stay; the lines are those of the cut cloth.
-  DrawingPiece kept_cloth(const PanelAlteration& panel, const DrawingPiece& before) const {
-    DrawingPiece piece = before;
+  DrawingPiece kept_cloth(int number) const {
+    const PanelAlteration& panel = alteration_.panels[static_cast<std::size_t>(number)];
+    DrawingPiece piece = before_.pieces[static_cast<std::size_t>(number)];
+    const auto darts = folded_darts(pattern_, number);
     std::erase_if(piece.lines,
                   [](const DrawingLine& line) { return line.kind == LineKind::Cut || line.kind == LineKind::Stitch; });
     std::vector<DrawingLine> lines = {closed(LineKind::Original, in_mm(panel.original))};
@@ -179,7 +196,8 @@ class AlterationDrawer {
     const auto cuts = in_mm(panel.cut_lines);
     for (const PolygonWithHoles& part : panel.kept) {
       const std::vector<Vec2> outline = without_spikes(in_mm(part.outline));
-      lines.push_back(closed(LineKind::Cut, grown(outline, lies_on(outline, cuts, false), 0.0, allowance_)));
+      const std::vector<Vec2> cloth = with_darts(outline, darts);
+      lines.push_back(closed(LineKind::Cut, grown(cloth, lies_on(cloth, cuts, false), 0.0, allowance_)));
       lines.push_back(closed(LineKind::Stitch, outline));
       for (const auto& hole : part.holes) lines.push_back(closed(LineKind::Stitch, in_mm(hole)));
     }
