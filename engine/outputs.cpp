@@ -12,6 +12,7 @@
 #include "engine/draw_alteration.h"
 #include "engine/io/body_json.h"
 #include "engine/io/drape_obj.h"
+#include "engine/io/dxf.h"
 #include "engine/io/garmentcode_json.h"
 #include "engine/io/options_json.h"
 #include "engine/io/pdf.h"
@@ -200,6 +201,7 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
 
   Outputs outputs(options);
   outputs.make("altered_pattern.svg", kSvg, [&] { return io::write_svg(drawing); });
+  outputs.make("altered_pattern.dxf", "image/vnd.dxf", [&] { return io::write_dxf(drawing); });
   for (const auto& [name, sheet] : kPrints)
     outputs.make(name, "application/pdf", [&, paper = sheet] { return io::write_pdf(drawing, {paper, {}}); });
   const Bytes* pattern_png = outputs.make("pattern.png", kPng, [&] { return write_png(draw_picture(drawing)); });

@@ -71,7 +71,9 @@ ImportBodyResult made(Body body) {
 }  // namespace
 
 std::string input_key(const GarmentInput& garment) {
-  return ContentHash().add("garment").add(garment.bytes).hex();
+  ContentHash hash;
+  hash.add("garment").add(garment.bytes).add(garment.metre_per_uv_unit.value_or(0.0)).add(garment.sidecar);
+  return hash.hex();
 }
 
 std::string input_key(const BodyInput& body) {
@@ -84,9 +86,15 @@ std::string input_key(const BodyInput& body) {
 }
 
 Pattern read_garment(const GarmentInput& garment) {
-  Pattern pattern = import_pattern(garment.bytes);
-  if (pattern.name.empty()) pattern.name = garment.name;
-  return pattern;
+  try {
+    const ImportGarmentOptions options{garment.metre_per_uv_unit, garment.sidecar};
+    Pattern pattern = import_garment(garment.bytes, garment.name, options).pattern;
+    if (pattern.name.empty()) pattern.name = garment.name;
+    return pattern;
+  } catch (const Error& error) {
+    if (!error.subject.starts_with('/')) throw;
+    throw Error(error.code, garment.name + "#" + error.subject, error.message);  // the file, then the place in it
+  }
 }
 
 Body read_body(const BodyInput& body) {

@@ -11,7 +11,9 @@ namespace toile {
 
 struct GarmentInput {
   std::string name;  // of the file, for messages and documents
-  Bytes bytes;       // GarmentCode specification
+  Bytes bytes;       // GarmentCode specification, or an OBJ whose texture coordinates are the pattern
+  std::optional<double> metre_per_uv_unit = {};  // of an OBJ; empty: found
+  Bytes sidecar = {};                            // JSON beside an OBJ (obj_garment.h), or empty
 };
 
 struct BodyInput {

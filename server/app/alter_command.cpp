@@ -16,12 +16,17 @@ namespace {
 
 struct JobFiles {
   std::string garment, reference_body, target_body, options, out;
+  std::string uv_unit, sidecar;
   BodySource reference_source, target_source;
   std::map<std::string, std::string> given;  // option name -> value, as on the command line
 };
 
-GarmentInput read_garment_input(const std::string& path) {
-  return {std::filesystem::path(path).filename().string(), read_file(path)};
+GarmentInput read_garment_input(const JobFiles& files) {
+  GarmentInput input{std::filesystem::path(files.garment).filename().string(), read_file(files.garment)};
+  if (!files.uv_unit.empty())
+    input.metre_per_uv_unit = files.uv_unit == "mm" ? 1e-3 : files.uv_unit == "cm" ? 1e-2 : 1.0;
+  if (!files.sidecar.empty()) input.sidecar = read_file(files.sidecar);
+  return input;
 }
 
 // The file first, then what the command line says.
@@ -41,7 +46,7 @@ void write_outputs(const std::string& folder, const std::vector<OutputFile>& fil
 
 void alter(const JobFiles& files, Context& context) {
   const AlterOptions options = options_of(files);
-  const GarmentInput garment = read_garment_input(files.garment);
+  const GarmentInput garment = read_garment_input(files);
   const BodyInput reference = read_body_input(files.reference_body, files.reference_source);
   const BodyInput target = read_body_input(files.target_body, files.target_source);
   StageRunner runner(nullptr, &context.progress, kAlterStages);
@@ -52,7 +57,7 @@ void alter(const JobFiles& files, Context& context) {
 
 void drape_one(const JobFiles& files, Context& context) {
   const AlterOptions options = options_of(files);
-  const GarmentInput garment = read_garment_input(files.garment);
+  const GarmentInput garment = read_garment_input(files);
   const BodyInput body = read_body_input(files.reference_body, files.reference_source);
   StageRunner runner(nullptr, &context.progress, kDrapeStages);
   const auto draped = drape_garment(garment, body, options, runner);
@@ -68,7 +73,12 @@ std::string help_of(const io::OptionInfo& info) {
 
 // --stretch-limit for stretch_limit, and so on for every option of a job.
 void add_job_options(CLI::App& command, const std::shared_ptr<JobFiles>& files) {
-  command.add_option("--garment", files->garment, "GarmentCode specification (JSON)")->required();
+  command
+      .add_option("--garment", files->garment, "GarmentCode specification (JSON), or OBJ with its pattern as texture")
+      ->required();
+  command.add_option("--uv-unit", files->uv_unit, "unit of an OBJ's texture coordinates; found when left out")
+      ->check(CLI::IsMember({"mm", "cm", "m"}));
+  command.add_option("--seams", files->sidecar, "document beside an OBJ: seams of a flat one, labels, toile block");
   command.add_option("--options", files->options, "options of the job (JSON)");
   command.add_option("--out", files->out, "folder for the results; made if needed")->required();
   for (const io::OptionInfo& info : io::list_options()) {
