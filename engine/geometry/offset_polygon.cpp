@@ -63,6 +63,12 @@ class RawOffset {
 
   void join_convex(const Grown& before, const Grown& after, const Vec2& corner) {
     const Vec2 tip = crossing(before, after);
+    // Where the distance changes at a slight bend the lines cross beside the corner, not beyond it: a step.
+    if ((tip - before.end).dot(before.direction) < -1e-9 || (tip - after.start).dot(after.direction) > 1e-9) {
+      points.push_back(before.end);
+      points.push_back(after.start);
+      return;
+    }
     const double reach = mitre_limit_ * std::max(before.distance, after.distance);
     const double length = (tip - corner).norm();
     if (length <= reach || reach <= 0) return points.push_back(tip);

@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
+#include "engine/geometry/inner_point.h"
 #include "engine/geometry/positive_outline.h"
 
 namespace toile {
@@ -96,6 +98,32 @@ TEST(OffsetPolygon, TinyEdgesBetweenLongOnesDoNotSpike) {
     EXPECT_GE(distance_to_outline(stepped, p), 10 - 0.01);
   }
   EXPECT_NEAR(polygon_area(grown), 120 * 120, 20);
+}
+
+// Jagged stars with hollows narrower than the distance, tiny edges and distances that change from edge to edge.
+TEST(OffsetPolygon, EveryRandomOutlineKeepsAtLeastItsDistance) {
+  std::mt19937 random(7);
+  const auto uniform = [&](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
+  for (int round = 0; round < 300; ++round) {
+    const int count = 3 + static_cast<int>(random() % 40);
+    std::vector<Vec2> star;
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + uniform(0, 0.9)) / count;
+      star.emplace_back(uniform(30, 200) * Vec2(std::cos(angle), std::sin(angle)));
+    }
+    std::vector<double> distances;
+    for (int i = 0; i < count; ++i) distances.push_back(round % 2 ? 10.0 : std::floor(uniform(0, 4)) * 5);
+    const auto grown = offset_polygon(star, distances);
+    ASSERT_GT(polygon_area(grown), polygon_area(star) - 1e-6) << round;
+    for (std::size_t k = 0; k < star.size(); ++k)
+      for (const Vec2& p : {star[k], Vec2(0.5 * (star[k] + star[(k + 1) % star.size()]))}) {
+        const double clearance = distance_to_outline(grown, p);
+        EXPECT_TRUE(clearance < 1e-6 || inside_polygon(grown, p)) << round;
+        // With one distance all round nothing may come nearer than it.
+        const double least = round % 2 ? 10 - 0.01 : 0.0;
+        EXPECT_GE(clearance, least) << round;
+      }
+  }
 }
 
 TEST(OffsetPolygon, WrongCountsAreRefused) {
