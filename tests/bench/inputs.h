@@ -6,6 +6,7 @@
 
 namespace toile::bench {
 
+void bench_bodies(const Arguments& arguments);   // shared scans, read, repaired and normalised
 void bench_meshing(const Arguments& arguments);  // panels of shared garments to triangles
 
 }  // namespace toile::bench

@@ -11,6 +11,7 @@ int bench_inputs(const Arguments& arguments) {
     std::fprintf(stderr, "inputs: ../shared/data is not beside this checkout\n");
     return 2;
   }
+  bench_bodies(arguments);
   bench_meshing(arguments);
   return 0;
 }
