@@ -104,7 +104,8 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
   result.trials = inserting.trials + removing.trials;
   result.reverted = inserting.reverted + removing.reverted;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
-    const RecutPanel insertion = recut(inserting.sheets[p]), removal = recut(removing.sheets[p]);
+    const RecutPanel insertion = recut(inserting.sheets[p], {options.l_shapes});
+    const RecutPanel removal = recut(removing.sheets[p], {options.l_shapes});
     PanelAlteration panel;
     panel.panel = pattern.panels[p].name;
     panel.original = removal.wanted;

@@ -14,6 +14,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kSamePlace = 0.02;     // m, along a seam
 constexpr double kOpenSeamPrice = 0.6;  // share of a tear's weight that an unmatched ply costs
+constexpr double kCornerPrice = 0.8;    // share of its weight that a side keeps whose neighbour is released already
 constexpr double kOnlyForPartner = -1e-3;
 
 bool neighbour_released(const PanelTears& done, int side, int step) {
@@ -27,8 +28,6 @@ std::string refusal(const TearCandidate& candidate, const Sheet& sheet, const Pa
   if (candidate.tear.kind == TearKind::Edge)
     return done.edge_tears[static_cast<std::size_t>(side)] >= options.max_tears_per_side ? "side is cut often enough"
                                                                                          : "";
-  if (!options.l_shapes && (neighbour_released(done, side, 1) || neighbour_released(done, side, -1)))
-    return "would make an L";
   for (const int step : {-1, 1}) {
     const int next = (side + step + count) % count;
     if (sheet.cloth_sides[static_cast<std::size_t>(next)].length() < options.least_corner_distance && count > 3 &&
@@ -38,10 +37,15 @@ std::string refusal(const TearCandidate& candidate, const Sheet& sheet, const Pa
   return "";
 }
 
-double weight_of(const TearCandidate& candidate, const ChooseTearsOptions& options) {
+double weight_of(const TearCandidate& candidate, const std::vector<PanelTears>& done,
+                 const ChooseTearsOptions& options) {
   if (candidate.weight <= 0.0 || candidate.release < options.least_release)
     return std::min(candidate.weight, 0.0) + kOnlyForPartner;
-  return candidate.weight * (candidate.tear.kind == TearKind::Release ? options.seam_preference : 1.0);
+  if (candidate.tear.kind == TearKind::Edge) return candidate.weight;
+  const PanelTears& panel = done[static_cast<std::size_t>(candidate.tear.panel)];
+  const bool corner =
+      neighbour_released(panel, candidate.tear.side, 1) || neighbour_released(panel, candidate.tear.side, -1);
+  return candidate.weight * options.seam_preference * (corner && !options.l_shapes ? kCornerPrice : 1.0);
 }
 
 class Program {
@@ -50,7 +54,7 @@ class Program {
           const std::vector<PanelTears>& done, const std::vector<std::vector<SeamPartner>>& partners,
           const ChooseTearsOptions& options)
       : candidates_(candidates), sheets_(sheets), done_(done), partners_(partners), options_(options) {
-    for (const TearCandidate& candidate : candidates) program_.weights.push_back(weight_of(candidate, options));
+    for (const TearCandidate& candidate : candidates) program_.weights.push_back(weight_of(candidate, done, options));
     forbid_refused();
     limit_panels_and_sides();
     for (std::size_t c = 0; c < candidates.size(); ++c)
@@ -122,17 +126,19 @@ ChosenTears Program::solve() const {
   return chosen;
 }
 
-ChosenTears choose_greedily(const std::vector<TearCandidate>& candidates, const ChooseTearsOptions& options) {
+ChosenTears choose_greedily(const std::vector<TearCandidate>& candidates, const std::vector<PanelTears>& done,
+                            const ChooseTearsOptions& options) {
   std::map<int, std::size_t> best;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    if (!candidates[c].refused.empty() || weight_of(candidates[c], options) <= 0.0) continue;
+    if (!candidates[c].refused.empty() || weight_of(candidates[c], done, options) <= 0.0) continue;
     const auto [known, added] = best.emplace(candidates[c].tear.panel, c);
-    if (!added && weight_of(candidates[c], options) > weight_of(candidates[known->second], options)) known->second = c;
+    if (!added && weight_of(candidates[c], done, options) > weight_of(candidates[known->second], done, options))
+      known->second = c;
   }
   ChosenTears chosen;
   for (const auto& [panel, c] : best) {
     chosen.candidates.push_back(c);
-    chosen.value += weight_of(candidates[c], options);
+    chosen.value += weight_of(candidates[c], done, options);
   }
   std::sort(chosen.candidates.begin(), chosen.candidates.end());
   return chosen;
@@ -181,7 +187,7 @@ ChosenTears choose_tears(std::vector<TearCandidate>& candidates, const std::vect
     const auto panel = static_cast<std::size_t>(candidate.tear.panel);
     if (candidate.refused.empty()) candidate.refused = refusal(candidate, sheets[panel], done[panel], options);
   }
-  if (options.greedy) return choose_greedily(candidates, options);
+  if (options.greedy) return choose_greedily(candidates, done, options);
   return Program(candidates, sheets, done, partners, options).solve();
 }
 

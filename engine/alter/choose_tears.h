@@ -5,9 +5,11 @@
 // that
 //   every side is cut into at most Theta times over the whole run (Eq. 3)
 //   what opens one ply of a seam opens the other ply at the same place (Eq. 4), or pays for not doing so
-//   sides that meet in a corner are not both released unless L-shapes are allowed (Eq. 5, over the whole run)
 //   one tear per panel and round (Sec. 6.2)
-// Source: [Eggler2024, Sec. 6.2, Eq. 2-5], gaps closed as in method.md section 5.
+// Sides that meet in a corner (Eq. 5) may both be released, one round after the other: forbidding it makes the program
+// cut across the middle of panels instead, which no tailor does. The second pays for the corner, and the L between them
+// is cut into strips (see recut) unless L-shapes are wanted. Source: [Eggler2024, Sec. 6.2, Eq. 2-5], gaps closed as in
+// method.md section 5.
 #pragma once
 
 #include "engine/alter/tear_candidates.h"
@@ -17,7 +19,7 @@ namespace toile {
 struct ChooseTearsOptions {
   double seam_preference = 1.5;  // gamma, >= 1: favours tears along existing seams
   int max_tears_per_side = 1;    // Theta, >= 0
-  bool l_shapes = false;         // adjacent sides may both be released
+  bool l_shapes = false;         // a side whose neighbour is released already costs no more than another
   double least_release = 0.03;   // share of the first energy below which a tear is only made for its partner's sake
   double least_corner_distance = 0.05;  // m: shorter sides do not have both neighbours released
   bool greedy = false;                  // no program: the best candidate of each panel, for comparison

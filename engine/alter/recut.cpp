@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "engine/geometry/split_polygon.h"
+
 namespace toile {
 namespace {
 
@@ -118,7 +120,11 @@ RecutPanel recut(const Sheet& sheet, const RecutOptions& options) {
       continue;
     }
     result.opening_area += area(opening);
-    result.openings.push_back(std::move(opening));
+    if (options.l_shapes || !opening.holes.empty()) {
+      result.openings.push_back(std::move(opening));
+      continue;
+    }
+    for (auto& strip : split_at_reflex_corners(opening.outline)) result.openings.push_back({std::move(strip), {}});
   }
   return result;
 }

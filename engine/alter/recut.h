@@ -10,6 +10,7 @@
 namespace toile {
 
 struct RecutOptions {
+  bool l_shapes = false;       // leave L- and T-shaped openings in one piece; else they become strips
   double least_area = 2e-4;    // m^2: smaller openings are eased in instead of cut                [method, Sec. 5]
   double least_width = 0.004;  // m, mean: narrower ones too
 };

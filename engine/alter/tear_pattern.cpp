@@ -49,7 +49,6 @@ class Tearing {
   std::vector<bool> locked_;
   std::vector<std::vector<TearCandidate>> trials_;  // per panel, valid until it is torn
   std::vector<bool> fresh_;
-  bool allow_l_ = false;
   TornPattern result_;
 };
 
@@ -151,14 +150,8 @@ bool Tearing::round() {
   if (!options_.choice.greedy) try_partners();
   std::vector<TearCandidate> all;
   for (const auto& trials : trials_) all.insert(all.end(), trials.begin(), trials.end());
-  ChooseTearsOptions choice = options_.choice;
-  choice.l_shapes = choice.l_shapes || allow_l_;
-  const ChosenTears chosen = choose_tears(all, result_.sheets, done_, partners_, choice);
-  if (chosen.candidates.empty()) {
-    if (choice.l_shapes) return false;
-    allow_l_ = true;  // stuck: an L is better than cloth that does not reach
-    return true;
-  }
+  const ChosenTears chosen = choose_tears(all, result_.sheets, done_, partners_, options_.choice);
+  if (chosen.candidates.empty()) return false;
   for (const std::size_t c : chosen.candidates) adopt(all[c], result_.rounds);
   ++result_.rounds;
   return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/geometry/polygon_boolean.h"
 
+#include <algorithm>
 #include <cmath>
 #include <list>
 
@@ -42,11 +43,41 @@ Polygon to_cgal(const std::vector<Vec2>& loop) {
   return polygon;
 }
 
-// A loop that touches or crosses itself: the triangles of a fan, each wound as it comes, would cancel; so the loop is
-// cut at its first point of crossing by the arrangement of its segments and every bounded face it winds around is kept.
+using Traits = CGAL::Arr_segment_traits_2<Kernel>;
+using Arrangement = CGAL::Arrangement_2<Traits>;
+
+// Closed walks that visit no point twice, of one that may.
+std::vector<Polygon> simple_walks(const std::vector<Point>& walk) {
+  std::vector<Polygon> loops;
+  std::vector<Point> open;
+  for (const Point& p : walk) {
+    const auto seen = std::find(open.begin(), open.end(), p);
+    if (seen == open.end()) {
+      open.push_back(p);
+      continue;
+    }
+    loops.emplace_back(seen, open.end());
+    open.erase(seen + 1, open.end());
+  }
+  loops.emplace_back(open.begin(), open.end());
+  return loops;
+}
+
+// How often a loop winds around a point on the left of the segment p -> q, next to its middle.
+double winding_beside(const std::vector<Vec2>& loop, const Vec2& p, const Vec2& q) {
+  const Vec2 way = q - p, inside = 0.5 * (p + q) + 1e-4 * Vec2(-way.y(), way.x());
+  double angle = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2 a = loop[i] - inside, b = loop[(i + 1) % loop.size()] - inside;
+    angle += std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b));
+  }
+  return std::abs(angle);
+}
+
+// A loop that touches or crosses itself: every face of the arrangement of its segments that it winds around.
 void join_crossing(PolygonSet& set, const std::vector<Vec2>& loop) {
-  CGAL::Arrangement_2<CGAL::Arr_segment_traits_2<Kernel>> arrangement;
-  std::vector<CGAL::Arr_segment_traits_2<Kernel>::Curve_2> segments;
+  Arrangement arrangement;
+  std::vector<Traits::Curve_2> segments;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Vec2 &p = loop[i], &q = loop[(i + 1) % loop.size()];
     segments.emplace_back(Point(p.x(), p.y()), Point(q.x(), q.y()));
@@ -54,25 +85,15 @@ void join_crossing(PolygonSet& set, const std::vector<Vec2>& loop) {
   CGAL::insert(arrangement, segments.begin(), segments.end());
   for (auto face = arrangement.faces_begin(); face != arrangement.faces_end(); ++face) {
     if (face->is_unbounded() || !face->has_outer_ccb()) continue;
-    Polygon polygon;
+    std::vector<Point> walk;
     auto edge = face->outer_ccb(), first = edge;
-    do polygon.push_back(edge->source()->point());
+    do walk.push_back(edge->source()->point());
     while (++edge != first);
-    if (!polygon.is_simple()) continue;  // a face pinched by an antenna encloses its neighbours' outline
-    if (polygon.is_clockwise_oriented()) polygon.reverse_orientation();
-    const Vec2 inside = [&] {
-      const auto a = polygon[0], b = polygon[1];
-      const double ax = CGAL::to_double(a.x()), ay = CGAL::to_double(a.y());
-      const double bx = CGAL::to_double(b.x()), by = CGAL::to_double(b.y());
-      const double length = std::hypot(bx - ax, by - ay), nudge = 1e-3 * length;
-      return Vec2(0.5 * (ax + bx) - nudge * (by - ay) / length, 0.5 * (ay + by) + nudge * (bx - ax) / length);
-    }();
-    double winding = 0.0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Vec2 p = loop[i] - inside, q = loop[(i + 1) % loop.size()] - inside;
-      winding += std::atan2(p.x() * q.y() - p.y() * q.x(), p.dot(q));
-    }
-    if (std::abs(winding) > 1.0) set.join(polygon);
+    const Vec2 p(CGAL::to_double(walk[0].x()), CGAL::to_double(walk[0].y()));
+    const Vec2 q(CGAL::to_double(walk[1].x()), CGAL::to_double(walk[1].y()));
+    if (winding_beside(loop, p, q) < 1.0) continue;
+    for (const Polygon& polygon : simple_walks(walk))
+      if (polygon.size() > 2 && polygon.is_counterclockwise_oriented()) set.join(polygon);
   }
 }
 

@@ -49,6 +49,11 @@ TEST(PolygonBoolean, ReadsALoopThatCrossesItselfAsTheAreasItWindsAround) {
   EXPECT_FALSE(is_simple_polygon(bow_tie));
   EXPECT_TRUE(is_simple_polygon(box(0, 0, 1, 1)));
   EXPECT_NEAR(area(polygon_union({bow_tie})), 0.5, kSnap);
+  // A square whose notch has closed over itself: its two legs cross.
+  const std::vector<Vec2> closed_dart = {{0, 0}, {0.6, 0}, {0.5, 0.5}, {0.4, 0}, {1, 0}, {1, 1}, {0, 1}};
+  EXPECT_FALSE(is_simple_polygon(closed_dart));
+  EXPECT_NEAR(area(polygon_union({closed_dart})), 1.0, 0.051);
+  EXPECT_EQ(polygon_union({closed_dart}).size(), 1u);
 }
 
 TEST(PolygonBoolean, IgnoresEmptyLoopsAndRefusesNumbersThatAreNone) {
