@@ -141,14 +141,13 @@ void WorkerPool::run(const Job& job) {
   } catch (const Error& error) {
     outcome = transient(error);
   }
-  bool told = false;
+  bool told = false, accepted = false;
   // A full disk may pass; the lease is kept meanwhile, and if it is not, another worker takes the job.
   for (int attempt = 0; attempt < 3 && !told && !state->lost; ++attempt) {
     try {
+      accepted = store_.queue.finish(state->lease(), outcome);
       told = true;
-      store_.queue.finish(state->lease(), outcome);
     } catch (const Error& error) {
-      told = false;
       outcome = transient(error);
       std::this_thread::sleep_for(kErrorWait);
     }
@@ -156,7 +155,7 @@ void WorkerPool::run(const Job& job) {
   const auto took = std::chrono::duration_cast<milliseconds>(Steady::now() - started).count();
   log_("job_ended", {{"job", job.id},
                      {"attempt", std::to_string(job.attempt)},
-                     {"outcome", state->lost ? "lease_lost" : outcome_name(outcome.kind)},
+                     {"outcome", !accepted ? "lease_lost" : outcome_name(outcome.kind)},
                      {"code", outcome.error ? outcome.error->code : ""},
                      {"ms", std::to_string(took)}});
   const std::lock_guard lock(lock_);
@@ -205,7 +204,10 @@ void WorkerPool::keep_leases() {
   Ticker heartbeat(milliseconds(options_.heartbeat_ms)), progress(kProgressEvery), recover(kRecoverEvery);
   const auto note = [&] { store_.note_worker({name_, 0, options_.workers, static_cast<int>(running().size())}); };
   const auto recover_jobs = [&] {
-    for (const std::string& dead : bury_dead_workers(store_)) store_.queue.give_back_jobs_of(dead);
+    for (const std::string& dead : bury_dead_workers(store_)) {
+      store_.queue.give_back_jobs_of(dead);
+      store_.forget_worker(dead);
+    }
     store_.queue.recover_expired();
   };
   bool first = true;

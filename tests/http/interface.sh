@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What clients rely on: waiting, idempotency, ETags, ranges, events, long poll, cursors, labels, cancellation, batches.
+. "$(dirname "$0")/lib.sh"
+start_server "$TOILE_TESTING" --workers 2
+test_inputs
+
+done_job=$(submit write '{}' -H 'Prefer: wait=30' -D "$work/head")
+grep -qi '^Preference-Applied: wait=30' "$work/head" || fail "Prefer was not applied"
+expect "a waited-for job" "$(echo "$done_job" | field .state)" succeeded
+id=$(echo "$done_job" | field .id)
+
+expect "the same body again" "$(status -X POST "${json[@]}" -d '{"builtin":"tube-14-100"}' "$url/v1/bodies")" 200
+
+key=(-H "Idempotency-Key: order-17")
+first=$(submit write '{"bytes":17}' "${key[@]}" | field .id)
+second=$(submit write '{"bytes":17}' "${key[@]}" | field .id)
+expect "a repeated request" "$second" "$first"
+expect "another payload under the same key" "$(submit write '{"bytes":18}' "${key[@]}" -o /dev/null -w '%{http_code}')" 422
+
+artifact=$url/v1/jobs/$id/artifacts/filler.bin
+tag=$(curl -sSI "$artifact" | tr -d '\r' | sed -n 's/^ETag: //p')
+expect "the ETag" "$tag" "\"$(curl -sS "$artifact" | sha256sum | cut -d' ' -f1)\""
+expect "unchanged bytes" "$(status -H "If-None-Match: $tag" "$artifact")" 304
+expect "a range" "$(curl -sS -r 10-19 "$artifact" | wc -c)" 10
+jobtag=$(curl -sSI "$url/v1/jobs/$id" | tr -d '\r' | sed -n 's/^ETag: //p')
+expect "an unchanged job" "$(status -H "If-None-Match: $jobtag" "$url/v1/jobs/$id")" 304
+expect "the request id" "$(curl -sSI -H 'X-Request-Id: shop-1' "$url/healthz" | tr -d '\r' | sed -n 's/^X-Request-Id: //p')" shop-1
+
+# Events end with the job; who comes back with the last id misses nothing.
+slow=$(submit sleep '{"ms":1500}' | field .id)
+curl -sSN --max-time 30 "$url/v1/jobs/$slow/events" > "$work/events"
+expect "the last event" "$(grep '^event:' "$work/events" | tail -1)" "event: succeeded"
+[ "$(grep -c '^id:' "$work/events")" -ge 3 ] || fail "too few events"
+last=$(grep '^id:' "$work/events" | tail -1 | cut -d' ' -f2)
+expect "events after a reconnect" "$(curl -sSN --max-time 30 -H "Last-Event-ID: $((last - 1))" "$url/v1/jobs/$slow/events" | grep -c '^id:')" 1
+expect "the long poll" "$(get "/v1/jobs/$slow/events?wait=5&last_event_id=$((last - 1))" | field .event)" succeeded
+
+# Cancellation within a second, queued or running.
+run=$(submit sleep '{"ms":60000}' | field .id)
+submit sleep '{"ms":60001}' > /dev/null
+wait=$(submit sleep '{"ms":60002}' | field .id)
+wait_for_state "$run" running 10
+expect "a cancelled queued job" "$(curl -sS -X DELETE "$url/v1/jobs/$wait" | field .state)" cancelled
+started=$(date +%s%N)
+expect "a cancelled running job" "$(curl -sS -X DELETE "$url/v1/jobs/$run" | field .state)" cancelled
+took=$((($(date +%s%N) - started) / 1000000))
+[ "$took" -lt 1500 ] || fail "cancelling took $took ms"
+for job in $(get '/v1/jobs?state=running' | field '.items[].id'); do curl -sS -X DELETE "$url/v1/jobs/$job" > /dev/null; done
+
+# Labels make a catalogue; lists are paged.
+for n in 1 2 3 4 5; do
+  post /v1/bodies "{\"builtin\":\"tube-1$n-90\",\"labels\":[\"spring\",\"no$n\"]}" > /dev/null
+done
+expect "labelled bodies" "$(get '/v1/bodies?label=spring' | field '.items | length')" 5
+page=$(get '/v1/bodies?label=spring&limit=3')
+expect "a page" "$(echo "$page" | field '.items | length')" 3
+expect "the next page" "$(get "$(echo "$page" | field .next)" | field '.items | length')" 2
+
+batch=$(post /v1/batches "{\"garment\":\"$garment\",\"reference_body\":\"$body\",\"label\":\"spring\",\"options\":{\"triangles\":500}}")
+batch_id=$(echo "$batch" | field .id)
+expect "jobs of the batch" "$(echo "$batch" | field .counts.total)" 5
+for _ in $(seq 600); do
+  batch=$(get "/v1/batches/$batch_id")
+  [ "$(echo "$batch" | field '.counts.queued + .counts.running')" = 0 ] && break
+  sleep 0.2
+done
+expect "batch jobs that ended well" "$(echo "$batch" | field .counts.succeeded)" 5
+expect "rows of the fit matrix" "$(echo "$batch" | field '[.fit_matrix[] | select(.fit | length > 0)] | length')" 5
+expect "batches listed" "$(get /v1/batches | field '.items | length')" 1
+
+get /metrics | grep -q 'toile_jobs{state="succeeded"} [1-9]' || fail "no metrics"
+expect "readiness" "$(status "$url/readyz")" 200
+get /openapi.yaml | head -1 | grep -q 'openapi: 3.1' || fail "no interface description"
+stop_server
+expect "the exit code on SIGTERM" "$stopped" 0
