@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -7,6 +8,7 @@
 #include "jobs/worker/inspection.h"
 #include "jobs/worker/sweeper.h"
 #include "server/app/command.h"
+#include "server/app/demo.h"
 #include "server/app/engine_jobs.h"
 #include "server/app/job_kinds.h"
 #include "server/app/json_log.h"
@@ -94,6 +96,11 @@ std::unique_ptr<http::WebhookSender> webhook_sender(http::Service& service, cons
   return std::make_unique<http::WebhookSender>(service, options);
 }
 
+void tell_demo(Store& store, const std::string& url) {
+  std::printf("# Try these in another terminal:\n%s", store_demo(store, url).c_str());
+  std::fflush(stdout);
+}
+
 void serve(const WorkSettings& work, const ServeSettings& settings, const std::atomic<bool>& stop) {
   const EventLog log = json_log();
   const http::ApiKeys keys =
@@ -114,6 +121,7 @@ void serve(const WorkSettings& work, const ServeSettings& settings, const std::a
   std::thread listener([&] { server.run(); });
   tell_port(settings, port);
   log("listening", {{"url", "http://" + settings.host + ":" + std::to_string(port)}, {"data", work.data}});
+  if (settings.demo) tell_demo(store, "http://" + settings.host + ":" + std::to_string(port));
   while (!stop) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   log("draining", {});
   service.stopping = true;
