@@ -22,6 +22,7 @@ struct Context {
 
 // Adds the subcommand's options to `app` and sets what it runs as its callback.
 void add_alter_command(CLI::App& app, Context& context);
+void add_batch_command(CLI::App& app, Context& context);
 void add_body_command(CLI::App& app, Context& context);
 void add_check_command(CLI::App& app, Context& context);
 void add_drape_command(CLI::App& app, Context& context);

@@ -11,6 +11,7 @@
 #include "engine/outputs.h"
 #include "engine/stages/import_pattern.h"
 #include "server/app/body_source.h"
+#include "server/app/fit_summary.h"
 
 namespace toile::app {
 
@@ -45,22 +46,6 @@ GarmentInput garment_input(const JobInput& given) {
   return {given.name.empty() ? "garment" : given.name, given.bytes};
 }
 
-// The stretch that is left, by zone of the body: weft or warp, whichever is larger, with its sign.
-json fit_by_zone(const json& result) {
-  const json fits = result.value("fits", json::object());
-  json zones = json::object();
-  for (const char* stage : {"after", "ideal", "before"}) {
-    if (!fits.contains(stage)) continue;
-    for (const json& zone : fits[stage].value("zones", json::array())) {
-      const json difference = zone.value("difference", json::object());
-      const double weft = difference.value("mean_weft", 0.0), warp = difference.value("mean_warp", 0.0);
-      zones[zone.value("zone", "whole")] = std::abs(weft) > std::abs(warp) ? weft : warp;
-    }
-    break;
-  }
-  return zones;
-}
-
 // Hands the files over; the report quotes the result and the clocks.
 JobReport hand_over(const JobContext& context, std::vector<OutputFile> files, const std::vector<StageTiming>& timings) {
   files.push_back(timings_output(timings));
@@ -71,7 +56,7 @@ JobReport hand_over(const JobContext& context, std::vector<OutputFile> files, co
     if (file.name != "result.json") continue;
     // What the files and the inputs are, the job's own document says already.
     json summary = json::parse(file.bytes);
-    const json fit = fit_by_zone(summary);
+    const json fit = fit_by_zone(file.bytes);
     if (!fit.empty()) summary["fit"] = fit;
     for (const char* told : {"inputs", "options", "files", "schema"}) summary.erase(told);
     report.summary = summary.dump();

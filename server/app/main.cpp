@@ -70,6 +70,7 @@ int main(int argc, char** argv) {
   };
 
   app::add_alter_command(app, context);
+  app::add_batch_command(app, context);
   app::add_body_command(app, context);
   app::add_check_command(app, context);
   app::add_drape_command(app, context);

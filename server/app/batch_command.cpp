@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// toile batch: one garment, many bodies. What the bodies share is done once; a batch that was broken off goes on where
+// it was.
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "engine/core/content_hash.h"
+#include "engine/io/options_json.h"
+#include "engine/outputs.h"
+#include "server/app/batch_report.h"
+#include "server/app/body_source.h"
+#include "server/app/command.h"
+#include "server/app/files.h"
+#include "server/app/fit_summary.h"
+#include "server/app/folder_stages.h"
+
+namespace toile::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct BatchFiles {
+  std::string garment, reference_body, target_bodies, options, out;
+  BodySource source;
+};
+
+bool is_body_file(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension == ".obj" || extension == ".ply" || extension == ".stl" || extension == ".json";
+}
+
+// The bodies of a folder by name, or the lines of a list (files relative to it, or builtin:NAME).
+std::vector<std::string> bodies_of(const std::string& source) {
+  std::vector<std::string> bodies;
+  if (fs::is_directory(source)) {
+    for (const auto& entry : fs::directory_iterator(source))
+      if (is_body_file(entry.path())) bodies.push_back(entry.path().string());
+    std::sort(bodies.begin(), bodies.end());
+  } else {
+    const Bytes bytes = read_file(source);
+    std::istringstream lines(std::string(bytes.begin(), bytes.end()));
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.empty() && line.back() == '\r') line.pop_back();
+      if (line.empty() || line.front() == '#') continue;
+      const bool plain = line.starts_with("builtin:") || fs::path(line).is_absolute();
+      bodies.push_back(plain ? line : (fs::path(source).parent_path() / line).string());
+    }
+  }
+  if (bodies.empty())
+    throw Error(ErrorCode::BadUsage, "--target-bodies",
+                "no body in " + source + ": give a folder of OBJ, PLY or STL files, or a list");
+  return bodies;
+}
+
+// A folder name no two bodies share.
+std::string folder_of(const std::string& body, std::map<std::string, int>& used) {
+  std::string name = body.starts_with("builtin:") ? body.substr(8) : fs::path(body).stem().string();
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return c == '/' || c < 32; }, '_');
+  const int count = ++used[name];
+  return count == 1 ? name : name + "-" + std::to_string(count);
+}
+
+class Batch {
+ public:
+  Batch(const BatchFiles& files, Context& context)
+      : files_(files),
+        context_(context),
+        options_(files.options.empty() ? AlterOptions() : io::read_options(read_file(files.options))),
+        garment_{fs::path(files.garment).filename().string(), read_file(files.garment)},
+        reference_(read_body_input(files.reference_body, BodySource{})),
+        stages_(fs::path(files.out) / ".stages") {}
+
+  int run() {
+    const std::vector<std::string> bodies = bodies_of(files_.target_bodies);
+    std::map<std::string, int> used;
+    std::vector<BatchRow> rows;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      rows.push_back(one(bodies[i], folder_of(bodies[i], used), i, bodies.size()));
+      report(rows);
+    }
+    std::printf("%s\n", (fs::path(files_.out) / "summary.html").c_str());
+    return static_cast<int>(
+        std::count_if(rows.begin(), rows.end(), [](const BatchRow& row) { return !row.error.empty(); }));
+  }
+
+ private:
+  BatchRow one(const std::string& file, const std::string& folder, std::size_t index, std::size_t count) {
+    BatchRow row{file, folder, "", {}};
+    const fs::path out = fs::path(files_.out) / folder;
+    try {
+      const BodyInput target = read_body_input(file, files_.source);
+      const std::string key = key_of(std::string(TOILE_VERSION), input_key(garment_), input_key(reference_),
+                                     input_key(target), io::write_options(options_));
+      if (!is_done(out, key)) work(target, out, key, index, count);
+      row.fit = fit_by_zone(read_file((out / "result.json").string()));
+    } catch (const Error& error) {
+      if (error.code == ErrorCode::Cancelled) throw;
+      row.error = std::string(error_name(error.code)) + ": " + error.what();
+    }
+    return row;
+  }
+
+  static bool is_done(const fs::path& out, const std::string& key) {
+    std::ifstream in(out / ".key");
+    std::string found;
+    return std::getline(in, found) && found == key;
+  }
+
+  void work(const BodyInput& target, const fs::path& out, const std::string& key, std::size_t index,
+            std::size_t count) {
+    Progress progress;
+    progress.cancelled = context_.progress.cancelled;
+    const std::string caption = std::to_string(index + 1) + "/" + std::to_string(count);
+    progress.report = [&](std::string_view, double fraction) {
+      if (context_.progress.report) context_.progress.report(caption, fraction);
+    };
+    StageRunner runner(&stages_, &progress, kAlterStages);
+    const AlterResult result = alter_garment(garment_, reference_, target, options_, runner);
+    std::vector<OutputFile> made = alter_outputs(result, options_, job_info(garment_, reference_, target));
+    made.push_back(timings_output(runner.timings()));
+    for (const OutputFile& file : made) write_file(out / file.name, file.bytes);
+    write_file(out / ".key", Bytes(key.begin(), key.end()));
+  }
+
+  void report(const std::vector<BatchRow>& rows) const {
+    const std::string csv = batch_csv(rows), html = batch_html(garment_.name, rows);
+    write_file(fs::path(files_.out) / "summary.csv", Bytes(csv.begin(), csv.end()));
+    write_file(fs::path(files_.out) / "summary.html", Bytes(html.begin(), html.end()));
+  }
+
+  const BatchFiles& files_;
+  Context& context_;
+  const AlterOptions options_;
+  const GarmentInput garment_;
+  const BodyInput reference_;
+  FolderStages stages_;
+};
+
+}  // namespace
+
+void add_batch_command(CLI::App& app, Context& context) {
+  auto files = std::make_shared<BatchFiles>();
+  CLI::App* command = app.add_subcommand("batch", "alter one garment for many bodies; can be broken off and resumed");
+  command->add_option("--garment", files->garment, "GarmentCode specification (JSON)")->required();
+  command->add_option("--reference-body", files->reference_body, "body it fits: OBJ, PLY, STL or builtin:NAME")
+      ->required();
+  command->add_option("--target-bodies", files->target_bodies, "folder of bodies, or a list of files and builtin:NAMEs")
+      ->required();
+  command->add_option("--options", files->options, "options of the jobs (JSON)");
+  command->add_option("--out", files->out, "folder for the results; made if needed")->required();
+  add_body_options(*command, files->source);
+  command->callback([files, &context] {
+    const int failed = Batch(*files, context).run();
+    if (failed > 0)
+      throw Error(ErrorCode::AlterationFailed, "batch",
+                  std::to_string(failed) + " bodies failed; summary.csv tells why");
+  });
+}
+
+}  // namespace toile::app
