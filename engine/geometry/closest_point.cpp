@@ -201,12 +201,14 @@ SurfaceTree::SurfaceTree(const Points3& vertices, const Triangles& triangles) {
   }
 }
 
-SurfacePoint SurfaceTree::closest_point(const Vec3& p, double within, int start) const {
+template <class Accept>
+SurfacePoint SurfaceTree::search(const Vec3& p, double within, int start, Accept accept) const {
   SurfacePoint best;
   best.distance_squared = within * within;
   if (nodes_.empty()) return best;
   const auto try_slot = [&](std::int32_t slot) {
     const Corners& t = corners_[static_cast<std::size_t>(slot)];
+    if (!accept(t)) return;
     const SurfacePoint candidate = closest_point_on_triangle(p, t.a, t.b, t.c);
     if (candidate.distance_squared < best.distance_squared) {
       best = candidate;
@@ -250,6 +252,19 @@ SurfacePoint SurfaceTree::closest_point(const Vec3& p, double within, int start)
     }
   }
   return best;
+}
+
+SurfacePoint SurfaceTree::closest_point(const Vec3& p, double within, int start) const {
+  return search(p, within, start, [](const Corners&) { return true; });
+}
+
+SurfacePoint SurfaceTree::closest_point_facing(const Vec3& p, const Vec3& direction, double cosine, double within,
+                                               int start) const {
+  return search(p, within, start, [&](const Corners& t) {
+    const Vec3 normal = (t.b - t.a).cross(t.c - t.a);
+    const double along = normal.dot(direction);
+    return along > 0 && along * along > cosine * cosine * normal.squaredNorm();
+  });
 }
 
 int SurfaceTree::winding_number(const Vec3& p) const {

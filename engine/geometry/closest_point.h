@@ -44,6 +44,10 @@ class SurfaceTree {
   SurfacePoint closest_point(const Vec3& p, double within = std::numeric_limits<double>::infinity(),
                              int start = -1) const;
 
+  // The same among triangles whose outer normal makes a cosine above `cosine` (>= 0) with the unit `direction`.
+  SurfacePoint closest_point_facing(const Vec3& p, const Vec3& direction, double cosine,
+                                    double within = std::numeric_limits<double>::infinity(), int start = -1) const;
+
   // How many times a closed surface winds round p, counted along the ray from p towards +z; 0 outside, 1 inside,
   // 2 where two parts overlap. Rays through edges and corners are counted once. Meaningless if the surface has holes.
   int winding_number(const Vec3& p) const;
@@ -62,6 +66,8 @@ class SurfaceTree {
     Vec3 a, b, c;
   };
   struct Builder;
+  template <class Accept>
+  SurfacePoint search(const Vec3& p, double within, int start, Accept accept) const;
 
   std::vector<Node> nodes_;
   std::vector<Corners> corners_;  // in the order of the leaves

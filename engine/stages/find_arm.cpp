@@ -19,7 +19,10 @@ constexpr double kForearmLow = 0.16, kForearmHigh = 0.30;  // rings whose median
 constexpr double kGrown = 1.75;                            // times that girth: the ring has grown onto the trunk
 // Fractions of the arm's length from the finger tip.
 constexpr double kHandEnd = 0.03, kWrist = 0.31, kElbow = 0.65, kBelowElbow = 0.68, kUpperArm = 0.90;
-constexpr double kShoulderBeyond = 0.13 / 0.22;  // of the way from kBelowElbow to kUpperArm
+constexpr double kShoulder = 1.03;
+constexpr double kBendLow = 0.54, kBendHigh = 0.78, kBendStep = 0.01;  // where the bend of an elbow is sought
+constexpr double kForearmFrom = 0.36;
+constexpr double kBent = 0.94;  // cosine over which an arm is straight: its elbow is then taken by length
 
 std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
@@ -49,6 +52,56 @@ Vec3 along(const Points3& line, double step, double d) {
   const auto i = std::min(static_cast<Eigen::Index>(at_ring), line.rows() - 2);
   const double t = at_ring - static_cast<double>(i);
   return (1.0 - t) * line.row(i) + t * line.row(i + 1);
+}
+
+struct Line {
+  Vec3 middle, direction;  // direction of rising distance, unit
+  double misfit;           // sum of squared distances of its points
+};
+
+// The line that fits best to the centre line between two distances.
+Line fit_line(const Points3& line, double step, double from, double to) {
+  std::vector<Vec3> points;
+  for (double d = from; d <= to + 1e-9; d += step) points.push_back(along(line, step, d));
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& p : points) middle += p;
+  middle /= static_cast<double>(points.size());
+  Mat3 spread = Mat3::Zero();
+  for (const Vec3& p : points) spread += (p - middle) * (p - middle).transpose();
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
+  Vec3 direction = axes.eigenvectors().col(2);
+  if (direction.dot(points.back() - points.front()) < 0) direction = -direction;
+  return {middle, direction, axes.eigenvalues()[0] + axes.eigenvalues()[1]};
+}
+
+struct Bend {
+  double at;   // fraction of the arm's length
+  Vec3 joint;  // where forearm and upper arm meet
+  Vec3 upper;  // direction of the upper arm, towards the shoulder
+};
+
+// The point between two lines that is nearest to both.
+Vec3 meeting_point(const Line& a, const Line& b) {
+  const Vec3 gap = b.middle - a.middle;
+  const double c = a.direction.dot(b.direction), da = a.direction.dot(gap), db = b.direction.dot(gap);
+  const double s = (da - c * db) / (1.0 - c * c), t = (c * da - db) / (1.0 - c * c);
+  return 0.5 * (a.middle + s * a.direction + b.middle + t * b.direction);
+}
+
+// Where the centre line is best fitted by two straight pieces; none if the arm is straight.
+std::optional<Bend> find_bend(const Points3& line, double step, double length) {
+  double least = 1e300;
+  std::optional<Bend> best;
+  for (double at_fraction = kBendLow; at_fraction <= kBendHigh; at_fraction += kBendStep) {
+    const Line fore = fit_line(line, step, kForearmFrom * length, at_fraction * length);
+    const Line upper = fit_line(line, step, at_fraction * length, kUpperArm * length);
+    if (fore.misfit + upper.misfit >= least) continue;
+    least = fore.misfit + upper.misfit;
+    best.reset();
+    if (fore.direction.dot(upper.direction) < kBent)
+      best = Bend{at_fraction, meeting_point(fore, upper), upper.direction};
+  }
+  return best;
 }
 
 struct Rings {
@@ -94,7 +147,9 @@ Skeleton::Arm build_arm(const Rings& rings, double height) {
   while (end < rings.girth.size() && rings.girth[end] <= kGrown * usual) ++end;
   if (end == rings.girth.size()) return arm;
 
-  arm.length = static_cast<double>(end + 1) * step;
+  const double before = end > 0 ? rings.girth[end - 1] : 0.0;
+  const double part = std::clamp((kGrown * usual - before) / std::max(rings.girth[end] - before, 1e-9), 0.0, 1.0);
+  arm.length = (static_cast<double>(end) + part) * step;
   arm.centre_line.resize(static_cast<Eigen::Index>(end), 3);
   for (std::size_t q = 0; q < end; ++q) arm.centre_line.row(static_cast<Eigen::Index>(q)) = rings.centre[q];
   std::vector<double> girths;
@@ -105,9 +160,17 @@ Skeleton::Arm build_arm(const Rings& rings, double height) {
   arm.girth = median(std::move(girths));
   const auto on_line = [&](double fraction) { return along(arm.centre_line, step, fraction * arm.length); };
   arm.hand_end = on_line(kHandEnd);
-  arm.wrist = on_line(kWrist);
-  arm.elbow = on_line(kElbow);
-  arm.shoulder = on_line(kUpperArm) + (on_line(kUpperArm) - on_line(kBelowElbow)) * kShoulderBeyond;
+  if (const auto bend = find_bend(arm.centre_line, step, arm.length)) {
+    const double reach = bend->at / kElbow;  // what the arm's length should be by the place of its elbow
+    arm.elbow = bend->joint;
+    arm.wrist = on_line(kWrist * reach);
+    arm.shoulder = arm.elbow + bend->upper * (kShoulder - kElbow) * reach * arm.length;
+  } else {
+    arm.elbow = on_line(kElbow);
+    arm.wrist = on_line(kWrist);
+    const Vec3 upper = on_line(kUpperArm) - on_line(kBelowElbow);
+    arm.shoulder = on_line(kUpperArm) + upper * (kShoulder - kUpperArm) / (kUpperArm - kBelowElbow);
+  }
   return arm;
 }
 

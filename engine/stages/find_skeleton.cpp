@@ -13,7 +13,8 @@ namespace toile {
 namespace {
 
 // Fractions of the height. Shared design page "registration", sections 1.2 (levels) and 4 (limits).
-constexpr double kStep = 0.005;
+constexpr double kStep = 0.005, kFineStep = 0.0005;
+constexpr double kClosedNear = 0.0055;  // further from the thin level it is noise, a patch, or thighs that touch
 constexpr double kCrotchTop = 0.56, kCrotchLow = 0.36, kCrotchAssumed = 0.46, kPelvisLow = 0.52;
 constexpr double kThicknessShare = 0.42;  // of the thickest level of the pelvis: thinner is the gap between the thighs
 constexpr double kArmpitLow = 0.50, kArmpitHigh = 0.88, kArmpitAssumed = 0.745;
@@ -84,11 +85,22 @@ class SkeletonFinder {
     }
     const bool found = i >= 3 && most > 0.0 && t[i] > enough;
     if (found) {
-      s_.crotch_y = y[i - 1] + (y[i] - y[i - 1]) * (enough - t[i - 1]) / (t[i] - t[i - 1]);
+      const double thin = y[i - 1] + (y[i] - y[i - 1]) * (enough - t[i - 1]) / (t[i] - t[i - 1]);
+      s_.crotch_y = lowest_closed_level(thin).value_or(thin);
     } else {
       s_.crotch_y = kCrotchAssumed * h_;
       warn(print_text("the crotch was not found; assumed at %.2f of the height", kCrotchAssumed));
     }
+  }
+
+  // Lowest level near the thin one at which trunk, or thighs that press on each other right under it, close the
+  // mid-plane; none where a hole or a fold leaves it open. Thighs that touch further down are not the trunk.
+  std::optional<double> lowest_closed_level(double thin) const {
+    const double low = thin - kClosedNear * h_, high = thin + kClosedNear * h_;
+    if (slices_.middle_closed(low)) return std::nullopt;
+    for (double y = low; y < high; y += kFineStep * h_)
+      if (slices_.middle_closed(y)) return y;
+    return std::nullopt;
   }
 
   void find_armpit() {
@@ -96,7 +108,9 @@ class SkeletonFinder {
     for (const Side side : {Left, Right}) {
       double y = kArmpitHigh;
       while (y > kArmpitLow && !slices_.arm_apart(y * h_, side)) y -= kStep;
-      sum += y;
+      double fine = y + kStep;
+      while (fine > y && !slices_.arm_apart(fine * h_, side)) fine -= kFineStep;
+      sum += fine;
     }
     s_.armpit_y = 0.5 * sum * h_;
     if (s_.armpit_y < 0.66 * h_ || s_.armpit_y > 0.84 * h_) {

@@ -2,23 +2,123 @@
 #include "engine/stages/register_bodies.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text.h"
+#include "engine/core/units.h"
+#include "engine/geometry/closest_point.h"
+#include "engine/stages/find_skeleton.h"
+#include "engine/stages/judge_map.h"
+#include "engine/stages/refine_map.h"
 
 namespace toile {
+namespace {
+
+constexpr double kBoneRatioLeast = 0.5, kBoneRatioMost = 2.0;  // of a bone's length against the height ratio
+
+bool share_topology(const Body& a, const Body& b) {
+  return a.surface.triangles.rows() == b.surface.triangles.rows() &&
+         a.surface.vertices.rows() == b.surface.vertices.rows() && a.surface.triangles == b.surface.triangles;
+}
+
+RegisterBodiesResult exact_map(const Body& target) {
+  RegisterBodiesResult result;
+  result.map.mapped = target.surface.vertices;
+  result.map.exact = true;
+  result.report.floor = target.surface.vertices.col(1).minCoeff();
+  result.diagnostics.add("method", "shared_topology").add("vertices", target.surface.vertex_count());
+  return result;
+}
+
+// The part of the target that was really scanned: patches over holes are guesses.
+TriangleMesh scanned_part(const Body& target) {
+  if (target.scanned_triangles < 0) return target.surface;
+  return {target.surface.vertices, target.surface.triangles.topRows(target.scanned_triangles)};
+}
+
+void check_bones(const Skeleton& reference, const Skeleton& target) {
+  const double height = target.height / reference.height;
+  const auto check = [&](const char* name, const Vec3& ra, const Vec3& rb, const Vec3& ta, const Vec3& tb) {
+    const double ratio = (tb - ta).norm() / (rb - ra).norm() / height;
+    if (ratio < kBoneRatioLeast || ratio > kBoneRatioMost)
+      throw Error(
+          ErrorCode::RegistrationFailed, "target_body",
+          print_text("the target's %s is %.2f times as long as the reference's, measured by their heights: give "
+                     "landmarks, or a reference body that is more alike",
+                     name, ratio));
+  };
+  check("trunk", reference.pelvis, reference.neck, target.pelvis, target.neck);
+  for (const Side side : {Left, Right}) {
+    const auto &ra = reference.arms[side], &ta = target.arms[side];
+    check("upper arm", ra.shoulder, ra.elbow, ta.shoulder, ta.elbow);
+    check("forearm", ra.elbow, ra.wrist, ta.elbow, ta.wrist);
+    const auto &rl = reference.legs[side], &tl = target.legs[side];
+    check("thigh", rl.hip, rl.knee, tl.hip, tl.knee);
+    check("shin", rl.knee, rl.ankle, tl.knee, tl.ankle);
+  }
+}
+
+std::vector<Pin> find_pins(const RegistrationReference& reference, const Body& target) {
+  std::vector<Pin> pins;
+  for (const auto& [name, place] : target.given_landmarks) {
+    const auto given = reference.landmarks.find(name);
+    if (given == reference.landmarks.end()) continue;
+    Eigen::Index vertex = 0;
+    (reference.surface.vertices.rowwise() - given->second.transpose()).rowwise().squaredNorm().minCoeff(&vertex);
+    pins.push_back({static_cast<int>(vertex), place});
+  }
+  return pins;
+}
+
+Record describe(const RegistrationReport& r, const std::vector<Pin>& pins) {
+  Record record;
+  record.add("method", "registered")
+      .add("landmarks_given", static_cast<int>(pins.size()))
+      .add("surface_mean_mm", r.surface_mean * kMmPerMetre)
+      .add("surface_p95_mm", r.surface_p95 * kMmPerMetre)
+      .add("scan_mean_mm", r.scan_mean * kMmPerMetre)
+      .add("scan_p95_mm", r.scan_p95 * kMmPerMetre)
+      .add("scan_p99_without_hands_mm", r.scan_p99_without_hands * kMmPerMetre)
+      .add("edge_stretch_p95", r.stretch_p95)
+      .add("facing_share", r.facing_share)
+      .add("floor_mm", r.floor * kMmPerMetre)
+      .add("warnings", r.warnings);
+  return record;
+}
+
+}  // namespace
+
+RegisterBodiesResult register_bodies(const RegistrationReference& reference, const Body& target,
+                                     const Progress* progress) {
+  report(progress, "register", 0.1);
+  const FindSkeletonResult found = find_skeleton(target.surface);
+  check_bones(reference.proportions.skeleton, found.skeleton);
+  const Points3 coarse = coarse_fit(reference.surface.vertices, reference.weights, reference.proportions,
+                                    find_proportions(target.surface, found.skeleton));
+  const FitTarget fit_target(scanned_part(target));
+  const std::vector<Pin> pins = find_pins(reference, target);
+
+  RegisterBodiesResult result;
+  result.map.mapped = refine_map(reference, coarse, fit_target, found.skeleton.height, pins, progress);
+  report(progress, "register", 0.95);
+  result.report = judge_map(reference, result.map.mapped, fit_target);
+  for (const auto* warnings : {&reference.warnings, &found.warnings})
+    result.report.warnings.insert(result.report.warnings.end(), warnings->begin(), warnings->end());
+  result.diagnostics = describe(result.report, pins);
+  report(progress, "register", 1.0);
+  return result;
+}
 
 RegisterBodiesResult register_bodies(const Body& reference, const Body& target, const RegisterBodiesOptions& options,
                                      const Progress* progress) {
-  RegisterBodiesResult result;
-  const bool shared = reference.surface.triangles.rows() == target.surface.triangles.rows() &&
-                      reference.surface.triangles == target.surface.triangles;
-  if (!options.use_shared_topology || !shared)
+  report(progress, "register", 0.0);
+  if (options.use_shared_topology && share_topology(reference, target)) {
+    report(progress, "register", 1.0);
+    return exact_map(target);
+  }
+  if (reference.kind == BodyKind::Form || target.kind == BodyKind::Form)
     throw Error(ErrorCode::RegistrationFailed, "target_body",
-                "the two bodies do not share one topology; give a target body with the vertices and triangles of the "
-                "reference body in the same order");
-  result.map.mapped = target.surface.vertices;
-  result.map.exact = true;
-  result.diagnostics.add("method", "shared_topology").add("vertices", reference.surface.vertex_count());
-  report(progress, "register", 1.0);
-  return result;
+                "forms are put in correspondence only by a shared topology: give a target form with the vertices and "
+                "triangles of the reference form in the same order");
+  return register_bodies(prepare_reference(reference), target, progress);
 }
 
 }  // namespace toile

@@ -26,6 +26,7 @@ void add_batch_command(CLI::App& app, Context& context);
 void add_body_command(CLI::App& app, Context& context);
 void add_check_command(CLI::App& app, Context& context);
 void add_drape_command(CLI::App& app, Context& context);
+void add_register_command(CLI::App& app, Context& context);
 void add_version_command(CLI::App& app, Context& context);
 void add_serve_command(CLI::App& app, Context& context);
 void add_work_command(CLI::App& app, Context& context);

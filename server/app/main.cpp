@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
   app::add_body_command(app, context);
   app::add_check_command(app, context);
   app::add_drape_command(app, context);
+  app::add_register_command(app, context);
   app::add_version_command(app, context);
   app::add_serve_command(app, context);
   app::add_work_command(app, context);

@@ -46,5 +46,6 @@ int bench_view(const Arguments& arguments);
 int bench_alteration(const Arguments& arguments);
 int bench_panels(const Arguments& arguments);
 int bench_pictures(const Arguments& arguments);
+int bench_register(const Arguments& arguments);
 
 }  // namespace toile::bench

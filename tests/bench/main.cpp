@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
        {"sew and drape: [GARMENT...] [growth] [--triangles N] [--body NAME] [--pictures FOLDER]", bench_drape}},
       {"panels", {"draw a flat pattern: GARMENT.json OUT.png|OUT.svg", bench_panels}},
       {"pictures", {"all a job shows of a drape: GARMENT.json BODY.obj FOLDER", bench_pictures}},
+      {"register", {"body maps: time against error over pairs and resolutions, growth", bench_register}},
       {"view", {"look at a body and a drape: BODY.obj [DRAPE.obj] OUT.png [--stretch 0.1]", bench_view}},
   };
   Arguments arguments;

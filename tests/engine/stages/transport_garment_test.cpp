@@ -19,7 +19,7 @@ struct Scene {
       pattern, mesh, [](double) { return 0.1435; }, 0.3);
 
   Points3 carried_to(const Body& target) const {
-    return transport_garment(drape, reference, target, register_bodies(reference, target).map).drape.nodes;
+    return transport_garment(mesh, drape, reference, target, register_bodies(reference, target).map).drape.nodes;
   }
 };
 

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/stages/coarse_fit.h"
+
+#include <Eigen/Geometry>
+
+#include "engine/geometry/convex_hull.h"
+#include "engine/stages/body_bones.h"
+#include "engine/stages/body_slices.h"
+
+namespace toile {
+namespace {
+
+// v -> linear (v - from) + to
+struct BoneMove {
+  Mat3 linear = Mat3::Identity();
+  Vec3 from = Vec3::Zero(), to = Vec3::Zero();
+
+  Vec3 operator()(const Vec3& v) const { return linear * (v - from) + to; }
+};
+using Moves = std::array<BoneMove, kBoneCount>;
+
+Mat3 least_rotation(const Vec3& from, const Vec3& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+}
+
+struct Segment {
+  Vec3 start, end;
+  double length() const { return (end - start).norm(); }
+};
+
+// Takes one segment onto the other, stretched along it to fit and by `radial` across it.
+BoneMove segment_move(const Segment& a, const Segment& b, double radial) {
+  const Vec3 u = (a.end - a.start).normalized();
+  const Mat3 along = u * u.transpose();
+  const Mat3 stretch = radial * (Mat3::Identity() - along) + b.length() / a.length() * along;
+  return {least_rotation(a.end - a.start, b.end - b.start) * stretch, a.start, b.start};
+}
+
+// Upright stretch by width and depth that takes one axis of the trunk onto the other by a shear.
+BoneMove trunk_move(const Segment& a, const Segment& b, double width, double depth) {
+  const Vec3 d = a.end - a.start, e = b.end - b.start;
+  Mat3 linear = Mat3::Zero();
+  linear(0, 0) = width, linear(2, 2) = depth;
+  linear.col(1) = (e - Vec3(width * d.x(), 0.0, depth * d.z())) / d.y();
+  return {linear, a.start, b.start};
+}
+
+BoneMove scaling(double factor, const Vec3& from, const Vec3& to) {
+  return {Mat3::Identity() * factor, from, to};
+}
+
+Moves full_moves(const BodyProportions& reference, const BodyProportions& target) {
+  const Skeleton &r = reference.skeleton, &t = target.skeleton;
+  Moves moves;
+  const std::array<Segment, 3> trunk_r = {{{r.pelvis, r.waist}, {r.waist, r.chest}, {r.chest, r.neck}}};
+  const std::array<Segment, 3> trunk_t = {{{t.pelvis, t.waist}, {t.waist, t.chest}, {t.chest, t.neck}}};
+  for (std::size_t i = 0; i < 3; ++i)
+    moves[i] = trunk_move(trunk_r[i], trunk_t[i], target.trunk_width[i] / reference.trunk_width[i],
+                          target.trunk_depth[i] / reference.trunk_depth[i]);
+  moves[Head] = scaling((t.height - t.neck_y) / (r.height - r.neck_y), r.neck, t.neck);
+  const double leg =
+      0.5 * (t.height + t.crotch_y) / (r.height + r.crotch_y) + 0.5 * target.leg_girth / reference.leg_girth;
+  for (const Side side : {Left, Right}) {
+    const Skeleton::Arm &ra = r.arms[side], &ta = t.arms[side];
+    const double arm = ta.girth / ra.girth;
+    const auto set = [&](Bone bone, const Segment& a, const Segment& b, double radial) {
+      moves[static_cast<std::size_t>(bone_of(bone, side))] = segment_move(a, b, radial);
+    };
+    set(UpperArm, {ra.shoulder, ra.elbow}, {ta.shoulder, ta.elbow}, arm);
+    set(Forearm, {ra.elbow, ra.wrist}, {ta.elbow, ta.wrist}, arm);
+    set(Hand, {ra.wrist, ra.hand_end}, {ta.wrist, ta.hand_end},
+        (ta.hand_end - ta.wrist).norm() / (ra.hand_end - ra.wrist).norm());
+    const Skeleton::Leg &rl = r.legs[side], &tl = t.legs[side];
+    set(Thigh, {rl.hip, rl.knee}, {tl.hip, tl.knee}, leg);
+    set(Shin, {rl.knee, rl.ankle}, {tl.knee, tl.ankle}, leg);
+    set(Foot, {rl.ankle, rl.toe}, {tl.ankle, tl.toe}, (tl.toe - tl.ankle).norm() / (rl.toe - rl.ankle).norm());
+  }
+  return moves;
+}
+
+Moves soft_moves(const BodyProportions& reference, const BodyProportions& target) {
+  const Skeleton &r = reference.skeleton, &t = target.skeleton;
+  const double scale = t.height / r.height;
+  const BoneMove whole = scaling(scale, 0.5 * (r.pelvis + r.chest), 0.5 * (t.pelvis + t.chest));
+  Moves moves;
+  for (const Bone bone : {Pelvis, Abdomen, Chest, Head}) moves[static_cast<std::size_t>(bone)] = whole;
+  for (const Side side : {Left, Right}) {
+    const Skeleton::Arm &ra = r.arms[side], &ta = t.arms[side];
+    const auto set = [&](Bone bone, const Segment& a, const Segment& b) {
+      moves[static_cast<std::size_t>(bone_of(bone, side))] = segment_move(a, b, scale);
+    };
+    const Vec3 shoulder = 0.5 * (whole(ra.shoulder) + ta.shoulder);
+    set(UpperArm, {ra.shoulder, ra.elbow}, {shoulder, ta.elbow});
+    set(Forearm, {ra.elbow, ra.wrist}, {ta.elbow, ta.wrist});
+    set(Hand, {ra.wrist, ra.hand_end}, {ta.wrist, ta.hand_end});
+    const Skeleton::Leg& rl = r.legs[side];
+    for (const Bone bone : {Thigh, Shin, Foot}) set(bone, {rl.hip, rl.ankle}, {whole(rl.hip), t.legs[side].ankle});
+  }
+  return moves;
+}
+
+// The mean of both skinnings: moves are affine, so are their means.
+Moves mean_moves(const Moves& a, const Moves& b) {
+  Moves mean;
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    mean[i].linear = 0.5 * (a[i].linear + b[i].linear);
+    mean[i].from = a[i].from;
+    mean[i].to = 0.5 * (a[i].to + b[i](a[i].from));
+  }
+  return mean;
+}
+
+}  // namespace
+
+BodyProportions find_proportions(const TriangleMesh& body, const Skeleton& skeleton) {
+  const BodySlices slices(body);
+  BodyProportions found;
+  found.skeleton = skeleton;
+  const double levels[] = {skeleton.pelvis.y(), skeleton.waist.y(), skeleton.chest.y()};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto piece = slices.middle(levels[i]);
+    const Vec2 size = piece ? Vec2(piece->high - piece->low) : Vec2::Constant(0.15 * skeleton.height);
+    found.trunk_width[i] = size.x(), found.trunk_depth[i] = size.y();
+  }
+  for (const Side side : {Left, Right})
+    found.leg_girth += 0.5 * hull_perimeter(slices.leg(0.8 * skeleton.crotch_y, side));
+  return found;
+}
+
+Points3 coarse_fit(const Points3& reference_vertices, const Eigen::MatrixXd& weights, const BodyProportions& reference,
+                   const BodyProportions& target) {
+  const Moves moves = mean_moves(full_moves(reference, target), soft_moves(reference, target));
+  Points3 fitted(reference_vertices.rows(), 3);
+  for (Eigen::Index v = 0; v < fitted.rows(); ++v) {
+    const Vec3 p = reference_vertices.row(v);
+    Vec3 x = Vec3::Zero();
+    for (int b = 0; b < kBoneCount; ++b)
+      if (const double w = weights(v, b); w > 0) x += w * moves[static_cast<std::size_t>(b)](p);
+    fitted.row(v) = x;
+  }
+  return fitted;
+}
+
+}  // namespace toile

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// toile register: the body map alone.
+#include <cstdio>
+
+#include "engine/io/body_json.h"
+#include "engine/io/mesh_file.h"
+#include "engine/io/record_json.h"
+#include "engine/stages/carry_landmarks.h"
+#include "engine/stages/find_skeleton.h"
+#include "engine/stages/measure_body.h"
+#include "engine/stages/register_bodies.h"
+#include "server/app/body_source.h"
+#include "server/app/command.h"
+#include "server/app/files.h"
+
+namespace toile::app {
+namespace {
+
+struct RegisterArguments {
+  std::string reference_body, target_body, reference_landmarks, out;
+  BodySource target;
+  bool find_always = false;
+};
+
+// The registered body is clean and whole: it is what a scan is measured by.
+Body registered_body(const Body& reference, const Body& target, const BodyMap& map) {
+  Body body;
+  body.name = target.name;
+  body.kind = target.kind;
+  body.surface = {map.mapped, reference.surface.triangles};
+  body.normalised_from_file = target.normalised_from_file;
+  body.landmarks = carry_landmarks(reference.landmarks, reference.surface, map.mapped);
+  if (body.kind == BodyKind::Human) {
+    body.skeleton = find_skeleton(body.surface).skeleton;
+    body.measurements = measure_body(body.surface, *body.skeleton, body.landmarks).measurements;
+  }
+  return body;
+}
+
+Record map_document(const Body& registered, const RegisterBodiesResult& result) {
+  Record document;
+  document.add("schema", "toile/map/1").add("exact", result.map.exact);
+  for (const RecordField& field : result.diagnostics.fields()) document.add(field.name, field.value);
+  const Record body = describe_body(registered);
+  for (const RecordField& field : body.fields()) document.add(field.name, field.value);
+  return document;
+}
+
+void run(const RegisterArguments& arguments, Context& context) {
+  BodySource reference_source;
+  reference_source.landmarks = arguments.reference_landmarks;
+  const Body reference = read_body(read_body_input(arguments.reference_body, reference_source));
+  const Body target = read_body(read_body_input(arguments.target_body, arguments.target));
+  RegisterBodiesOptions options;
+  options.use_shared_topology = !arguments.find_always;
+  const RegisterBodiesResult result = register_bodies(reference, target, options, &context.progress);
+  const Body registered = registered_body(reference, target, result.map);
+  const std::filesystem::path folder = arguments.out;
+  write_file(folder / "mapped_reference.obj", write_obj(registered.surface));
+  write_file(folder / "map.json", write_json(map_document(registered, result)));
+  for (const char* name : {"mapped_reference.obj", "map.json"}) std::printf("%s\n", (folder / name).c_str());
+}
+
+}  // namespace
+
+void add_register_command(CLI::App& app, Context& context) {
+  auto arguments = std::make_shared<RegisterArguments>();
+  CLI::App* command = app.add_subcommand("register", "put a reference body in correspondence with a target body");
+  command->add_option("--reference-body", arguments->reference_body, "OBJ, PLY or STL; builtin:NAME")->required();
+  command->add_option("--target-body", arguments->target_body, "body or scan: OBJ, PLY or STL; builtin:NAME")
+      ->required();
+  command->add_option("--out", arguments->out, "folder for mapped_reference.obj and map.json; made if needed")
+      ->required();
+  add_body_options(*command, arguments->target);
+  command->add_option("--reference-landmarks", arguments->reference_landmarks,
+                      "JSON of known landmarks of the reference");
+  command->add_flag("--find-always", arguments->find_always, "find the map even where both bodies share one topology");
+  command->callback([arguments, &context] { run(*arguments, context); });
+}
+
+}  // namespace toile::app
