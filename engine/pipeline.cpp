@@ -11,7 +11,7 @@ Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput&
   const MeshPanelsOptions mesh_options = mesh_options_of(options);
   const DrapeOptions drape_options = drape_options_of(options);
   const auto pattern = runner.run("import_pattern", 1, input_key(garment), [&] { return read_garment(garment); });
-  const auto wearer = runner.run("import_body", 2, input_key(body), [&] { return read_body(body); });
+  const auto wearer = runner.run("import_body", 1, input_key(body), [&] { return read_body(body); });
   const auto mesh = runner.run("mesh_panels", 1, key_of(pattern.key, mesh_options),
                                [&] { return mesh_panels(pattern.value, mesh_options, runner.progress()); });
   const auto worn = runner.run("drape", 1, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
@@ -30,7 +30,7 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
 
   auto reference = drape_garment(garment, reference_body, options, runner);
   const auto& [pattern, mesh, wearer, worn, fit] = reference.value;
-  const auto target = runner.run("import_body", 2, input_key(target_body), [&] { return read_body(target_body); });
+  const auto target = runner.run("import_body", 1, input_key(target_body), [&] { return read_body(target_body); });
   const auto registered = runner.run("register_bodies", 2, key_of(input_key(reference_body), target.key),
                                      [&] { return register_bodies(wearer, target.value, {}, runner.progress()); });
   const auto transported = runner.run("transport_garment", 2, key_of(reference.key, registered.key), [&] {

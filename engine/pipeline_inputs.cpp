@@ -19,7 +19,7 @@ constexpr std::string_view kBuiltin = "builtin:";
 void measure(Body& body) {
   try {
     body.skeleton = find_skeleton(body.surface).skeleton;
-    MeasureBodyResult measured = measure_body(body.surface, *body.skeleton, body.given_landmarks);
+    MeasureBodyResult measured = measure_body(body.surface, *body.skeleton, body.landmarks);
     body.landmarks = std::move(measured.landmarks);
     body.measurements = std::move(measured.measurements);
   } catch (const Error& error) {
@@ -106,8 +106,8 @@ ImportBodyResult take_in_body(const BodyInput& input, Progress* progress) {
   if (looks_like_json(input.bytes)) return made(make_measured(input));
   ImportBodyResult result = import_body(input.bytes, input.name, input.import, progress);
   if (!input.landmarks.empty())
-    result.body.given_landmarks = normalised_landmarks(read_landmarks(input.landmarks, input.name + " landmarks"),
-                                                       result.body.normalised_from_file);
+    result.body.landmarks = normalised_landmarks(read_landmarks(input.landmarks, input.name + " landmarks"),
+                                                 result.body.normalised_from_file);
   if (result.body.kind == BodyKind::Human) measure(result.body);
   return result;
 }

@@ -93,9 +93,8 @@ void archive(A& a, Skeleton& v) {
 }
 template <class A>
 void archive(A& a, Body& v) {
-  auto& [name, kind, surface, scanned_triangles, normalised_from_file, skeleton, landmarks, given_landmarks, measurements] =
-      v;
-  a(name, kind, surface, scanned_triangles, normalised_from_file, skeleton, landmarks, given_landmarks, measurements);
+  auto& [name, kind, surface, normalised_from_file, skeleton, landmarks, measurements] = v;
+  a(name, kind, surface, normalised_from_file, skeleton, landmarks, measurements);
 }
 template <class A>
 void archive(A& a, BodyMap& v) {

@@ -52,11 +52,9 @@ struct Body {
   std::string name;
   BodyKind kind = BodyKind::Human;
   TriangleMesh surface;                          // closed, oriented
-  int scanned_triangles = -1;  // the first so many come from the file, later ones close its holes; -1: all
   Mat4 normalised_from_file = Mat4::Identity();  // 4x4, row-major in documents
   std::optional<Skeleton> skeleton;              // none for a form
   Landmarks landmarks;                           // found or given; normalised frame
-  Landmarks given_landmarks;                     // those the user gave: they win over what is found
   Measurements measurements;
 };
 

@@ -77,7 +77,6 @@ ImportBodyResult import_body(TriangleMesh in_file, const std::string& name, cons
   body.normalised_from_file = result.normalisation.normalised_from_file;
   body.surface = std::move(result.normalisation.surface);
   result.normalisation.surface = {};
-  body.scanned_triangles = body.surface.triangle_count();
   result.repairs.holes = close_holes(body.surface, {.lowest_y = 0.0}, progress);
   result.repairs.turned_triangles += orient_outward(body.surface);
   require_closed(body.surface, name);

@@ -28,12 +28,6 @@ RegisterBodiesResult exact_map(const Body& target) {
   return result;
 }
 
-// The part of the target that was really scanned: patches over holes are guesses.
-TriangleMesh scanned_part(const Body& target) {
-  if (target.scanned_triangles < 0) return target.surface;
-  return {target.surface.vertices, target.surface.triangles.topRows(target.scanned_triangles)};
-}
-
 void check_bones(const Skeleton& reference, const Skeleton& target) {
   const double height = target.height / reference.height;
   const auto check = [&](const char* name, const Vec3& ra, const Vec3& rb, const Vec3& ta, const Vec3& tb) {
@@ -56,9 +50,9 @@ void check_bones(const Skeleton& reference, const Skeleton& target) {
   }
 }
 
-std::vector<Pin> find_pins(const RegistrationReference& reference, const Body& target) {
+std::vector<Pin> find_pins(const RegistrationReference& reference, const Landmarks& given_places) {
   std::vector<Pin> pins;
-  for (const auto& [name, place] : target.given_landmarks) {
+  for (const auto& [name, place] : given_places) {
     const auto given = reference.landmarks.find(name);
     if (given == reference.landmarks.end()) continue;
     Eigen::Index vertex = 0;
@@ -87,14 +81,14 @@ Record describe(const RegistrationReport& r, const std::vector<Pin>& pins) {
 }  // namespace
 
 RegisterBodiesResult register_bodies(const RegistrationReference& reference, const Body& target,
-                                     const Progress* progress) {
+                                     const RegisterBodiesOptions& options, const Progress* progress) {
   report(progress, "register", 0.1);
   const FindSkeletonResult found = find_skeleton(target.surface);
   check_bones(reference.proportions.skeleton, found.skeleton);
   const Points3 coarse = coarse_fit(reference.surface.vertices, reference.weights, reference.proportions,
                                     find_proportions(target.surface, found.skeleton));
-  const FitTarget fit_target(scanned_part(target));
-  const std::vector<Pin> pins = find_pins(reference, target);
+  const FitTarget fit_target(target.surface);
+  const std::vector<Pin> pins = find_pins(reference, options.target_landmarks);
 
   RegisterBodiesResult result;
   result.map.mapped = refine_map(reference, coarse, fit_target, found.skeleton.height, pins, progress);
@@ -118,7 +112,7 @@ RegisterBodiesResult register_bodies(const Body& reference, const Body& target, 
     throw Error(ErrorCode::RegistrationFailed, "target_body",
                 "forms are put in correspondence only by a shared topology: give a target form with the vertices and "
                 "triangles of the reference form in the same order");
-  return register_bodies(prepare_reference(reference), target, progress);
+  return register_bodies(prepare_reference(reference), target, options, progress);
 }
 
 }  // namespace toile

@@ -17,6 +17,7 @@ namespace toile {
 
 struct RegisterBodiesOptions {
   bool use_shared_topology = true;  // take equal triangle lists as exact correspondence
+  Landmarks target_landmarks;       // given by the user for the target, normalised frame; names as in the reference's
 };
 
 // How good a found map is. Metres; 0 where the correspondence is exact.
@@ -52,6 +53,6 @@ RegisterBodiesResult register_bodies(const Body& reference, const Body& target,
 
 // The same with a prepared reference, for many targets. Shared topology is not looked for.
 RegisterBodiesResult register_bodies(const RegistrationReference& reference, const Body& target,
-                                     const Progress* progress = nullptr);
+                                     const RegisterBodiesOptions& options = {}, const Progress* progress = nullptr);
 
 }  // namespace toile

@@ -47,7 +47,6 @@ RegistrationReference prepare_reference(const Body& reference) {
   RegistrationReference out;
   out.surface = reference.surface;
   out.landmarks = reference.landmarks;
-  for (const auto& [name, point] : reference.given_landmarks) out.landmarks[name] = point;
   FindSkeletonResult found = find_skeleton(out.surface);
   out.warnings = std::move(found.warnings);
   out.proportions = find_proportions(out.surface, found.skeleton);

@@ -16,7 +16,7 @@ struct SurfaceBinding {
 
 struct RegistrationReference {
   TriangleMesh surface;
-  Landmarks landmarks;  // of the body, given over found
+  Landmarks landmarks;  // of the body
   BodyProportions proportions;
   Eigen::MatrixXd weights;       // #V x 16, bone_weights
   Eigen::VectorXd visible;       // #V, 1 or 0: whether the skin can be seen from outside (a mouth's inside cannot)

@@ -50,8 +50,12 @@ void run(const RegisterArguments& arguments, Context& context) {
   BodySource reference_source;
   reference_source.landmarks = arguments.reference_landmarks;
   const Body reference = read_body(read_body_input(arguments.reference_body, reference_source));
-  const Body target = read_body(read_body_input(arguments.target_body, arguments.target));
+  const BodyInput target_input = read_body_input(arguments.target_body, arguments.target);
+  const Body target = read_body(target_input);
   RegisterBodiesOptions options;
+  if (!target_input.landmarks.empty())
+    options.target_landmarks = normalised_landmarks(
+        read_landmarks(target_input.landmarks, target_input.name + " landmarks"), target.normalised_from_file);
   options.use_shared_topology = !arguments.find_always;
   const RegisterBodiesResult result = register_bodies(reference, target, options, &context.progress);
   const Body registered = registered_body(reference, target, result.map);
