@@ -6,6 +6,8 @@
 #include "engine/geometry/closest_point.h"
 #include "engine/stages/make_form.h"
 #include "engine/stages/register_bodies.h"
+#include "tests/support/grid_garment.h"
+#include "tests/support/solids.h"
 #include "tests/support/tubes.h"
 
 namespace toile {
@@ -45,6 +47,38 @@ TEST(TransportGarment, EndsOutsideTheTarget) {
   const SurfaceTree tree(target.surface.vertices, target.surface.triangles);
   const Points3 carried = scene.carried_to(target);
   for (Eigen::Index i = 0; i < carried.rows(); ++i) EXPECT_GE(tree.signed_distance(carried.row(i)), 0.9e-3) << i;
+}
+
+// Two boxes as legs, with a flat sheet in front of both; the map sets the legs 10 cm further apart.
+TEST(TransportGarment, BridgesTheGapBetweenLimbsInsteadOfTearingIt) {
+  const TriangleMesh left = test::make_box(Vec3(0.08, 0, -0.05), Vec3(0.20, 1, 0.05));
+  const TriangleMesh right = test::make_box(Vec3(-0.20, 0, -0.05), Vec3(-0.08, 1, 0.05));
+  Body legs;
+  legs.kind = BodyKind::Form;
+  legs.surface.vertices.resize(16, 3), legs.surface.vertices << left.vertices, right.vertices;
+  legs.surface.triangles.resize(24, 3), legs.surface.triangles << left.triangles,
+      (right.triangles.array() + 8).matrix();
+  Body apart = legs;
+  for (int v = 0; v < 16; ++v) apart.surface.vertices(v, 0) += v < 8 ? 0.05 : -0.05;
+
+  const test::GridGarment sheet = test::grid_garment({{"sheet", 0.4, 0.4, 20, 20}});
+  Drape drape;
+  drape.nodes.resize(sheet.mesh.node_count, 3);
+  for (int v = 0; v < sheet.mesh.vertex_count(); ++v)
+    drape.nodes.row(sheet.mesh.node_of_vertex[static_cast<std::size_t>(v)]) =
+        Vec3(sheet.mesh.rest(v, 0) - 0.2, sheet.mesh.rest(v, 1) + 0.3, 0.055);
+  const Points3 carried =
+      transport_garment(sheet.mesh, drape, legs, apart, register_bodies(legs, apart).map).drape.nodes;
+
+  double longest = 0.0, shift = 0.0;
+  for (int f = 0; f < sheet.mesh.triangle_count(); ++f) {
+    const Eigen::Vector3i t = sheet.mesh.nodes_of_triangle(f);
+    for (int k = 0; k < 3; ++k) longest = std::max(longest, (carried.row(t[k]) - carried.row(t[(k + 1) % 3])).norm());
+  }
+  for (Eigen::Index i = 0; i < carried.rows(); ++i)
+    shift = std::max(shift, std::abs(carried(i, 0) - drape.nodes(i, 0)));
+  EXPECT_NEAR(shift, 0.05, 2e-3);  // the sheet does follow the legs
+  EXPECT_LT(longest, 0.07);        // carried one by one, neighbours at the middle part by 0.12
 }
 
 TEST(RegisterBodies, RefusesOtherTopologyInsteadOfAssumingIt) {
