@@ -9,7 +9,7 @@
 #include "engine/stages/mannequin_proportions.h"
 #include "engine/stages/mannequin_shape.h"
 #include "engine/stages/mannequin_skeleton.h"
-#include "engine/stages/measure_arm.h"
+#include "engine/stages/mannequin_tape.h"
 #include "engine/stages/measure_body.h"
 
 namespace toile {
@@ -90,7 +90,11 @@ class MannequinMaker {
     begin();
     build();
     int sweeps = 1;
-    for (; !close_enough() && sweeps < options_.most_sweeps; ++sweeps) {
+    for (;; ++sweeps) {
+      if (close_enough() || sweeps >= options_.most_sweeps) {
+        measure();
+        if (close_enough() || sweeps >= options_.most_sweeps) break;
+      }
       adjust();
       build();
     }
@@ -100,7 +104,7 @@ class MannequinMaker {
 
  private:
   bool close_enough() const {
-    constexpr double kCompletedSlack = 5.0;  // what nobody asked for need not be met as closely
+    constexpr double kCompletedSlack = 3.0;  // what nobody asked for need not be met as closely
     return worst_miss(asked_) < options_.close_enough && worst_miss(wanted_) < kCompletedSlack * options_.close_enough;
   }
 
@@ -137,43 +141,64 @@ class MannequinMaker {
 
   void build() {
     follow();
-    body_.surface.triangles = mannequin_template().triangles;
+    const MannequinTemplate& shared = mannequin_template();
+    body_.surface.triangles = shared.triangles;
     body_.surface.vertices = mannequin_surface(shape_);
     body_.surface.vertices *= shape_.height / body_.surface.vertices.col(1).maxCoeff();
     body_.skeleton = mannequin_skeleton(body_.surface.vertices);
-    MeasureBodyResult measured = measure_body(body_.surface, *body_.skeleton);
+    const double bust_y = bust_points().at("bust_l").y();
+    body_.measurements = measure_mannequin(body_.surface, shared.left_arm, *body_.skeleton, bust_y);
+    for (auto& [name, value] : body_.measurements)
+      if (const auto found = corrections_.find(name); found != corrections_.end()) value *= found->second;
+  }
+
+  // Where the tape goes over the bust: marked on the cage, for a stout person's front has no crest to find.
+  Landmarks bust_points() const {
+    const MannequinCage& cage = mannequin_template().cage;
+    const int left = cage.trunk[7][2], right = cage.mirror_of[static_cast<std::size_t>(left)];
+    return {{"bust_l", body_.surface.vertices.row(left)}, {"bust_r", body_.surface.vertices.row(right)}};
+  }
+
+  // As any other body.
+  void measure() {
+    MeasureBodyResult measured = measure_body(body_.surface, *body_.skeleton, bust_points());
+    for (const auto& [name, value] : body_.measurements) {
+      double& correction = corrections_.try_emplace(name, 1.0).first->second;
+      correction *= measured.measurements.at(name) / value;
+    }
     body_.landmarks = std::move(measured.landmarks);
     body_.measurements = std::move(measured.measurements);
-    // On a stout body the plane across the upper arm meets the trunk as well: measure the arm alone.
-    const TriangleMesh arm = {body_.surface.vertices, mannequin_template().left_arm};
-    const ArmGirths girths = measure_arm(arm, body_.skeleton->arms[Left]);
-    body_.measurements["upper_arm_girth"] = girths.upper_arm;
-    body_.measurements["wrist_girth"] = girths.wrist;
   }
 
   double worst_miss(const Measurements& wanted) const {
     double worst = 0.0;
     for (const Knob& knob : knobs())
-      if (const auto found = wanted.find(knob.name); found != wanted.end())
-        worst = std::max(worst, std::abs(body_.measurements.at(knob.name) - found->second));
+      if (wanted.contains(knob.name) && body_.measurements.contains(knob.name))
+        worst = std::max(worst, std::abs(body_.measurements.at(knob.name) - wanted.at(knob.name)));
     return worst;
   }
 
-  // One secant step for every measurement on its own, in logarithms: what the last step achieved tells how far to go.
+  // One step for every measurement on its own, in logarithms: as long as the last steps' effect suggests, and bounded,
+  // for neighbours pull at each other and a largest girth may jump to another level.
   void adjust() {
-    constexpr double kBoldest = 0.25, kLeastEffect = 0.35, kMostEffect = 1.3, kNoStep = 1e-6;
+    constexpr double kBoldest = 0.15, kLeastEffect = 0.5, kMostEffect = 1.2, kTellingStep = 2e-3;
+    constexpr double kLeastFactor = 0.55, kMostFactor = 1.8;
     steps_.resize(knobs().size());
     for (std::size_t k = 0; k < knobs().size(); ++k) {
       const Knob& knob = knobs()[k];
       const auto found = wanted_.find(knob.name);
-      if (found == wanted_.end()) continue;
+      if (found == wanted_.end() || !body_.measurements.contains(knob.name)) continue;
       Step& step = steps_[k];
       const double miss = std::log(found->second / body_.measurements.at(knob.name));
-      if (std::abs(step.taken) > kNoStep)
-        step.effect = std::clamp((step.miss - miss) / step.taken, kLeastEffect, kMostEffect);
+      if (std::abs(step.taken) > kTellingStep)
+        step.effect = 0.5 * (step.effect + std::clamp((step.miss - miss) / step.taken, kLeastEffect, kMostEffect));
+      double& value = knob.of(shape_);
+      if (step.start == 0.0) step.start = value;
+      const double before = value;
+      value = std::clamp(value * std::exp(std::clamp(miss / step.effect, -kBoldest, kBoldest)),
+                         kLeastFactor * step.start, kMostFactor * step.start);
       step.miss = miss;
-      step.taken = std::clamp(miss / step.effect, -kBoldest, kBoldest);
-      knob.of(shape_) *= std::exp(step.taken);
+      step.taken = std::log(value / before);
     }
   }
 
@@ -201,9 +226,9 @@ class MannequinMaker {
     return made;
   }
 
-  // Of one knob: the relative miss it answered, the step it took, and what a step of 1 brings.
+  // Of one knob: where it started, the relative miss it answered, the step it took, and what a step of 1 brings.
   struct Step {
-    double miss = 0.0, taken = 0.0, effect = 1.0;
+    double start = 0.0, miss = 0.0, taken = 0.0, effect = 1.0;
   };
 
   const Measurements& asked_;
@@ -211,6 +236,7 @@ class MannequinMaker {
   const Measurements wanted_;
   MannequinShape shape_;
   Body body_;
+  std::map<std::string, double> corrections_;  // of the quick measurements by the full ones
   std::vector<Step> steps_;
 };
 

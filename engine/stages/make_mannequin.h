@@ -23,8 +23,8 @@ enum class Figure {
 
 struct MakeMannequinOptions {
   Figure figure = Figure::Person;
-  int most_sweeps = 10;        // of measuring and scaling, >= 1
-  double close_enough = 4e-4;  // m: stop when every measurement is met within this, > 0
+  int most_sweeps = 16;        // of measuring and scaling, >= 1
+  double close_enough = 1e-3;  // m: stop when every measurement is met within this, > 0
   double tolerance = 5e-3;     // m: refuse when an asked measurement is missed by more, >= close_enough
 };
 
@@ -34,6 +34,7 @@ struct MakeMannequinResult {
 };
 
 // `asked`: any subset of the names in engine/stages/measurements.md that shape a mannequin (mannequin_measurements()).
+// The bust points are given landmarks of the body: measure_body with them finds the same bust girth.
 // Ensures: closed, two-manifold, outward oriented, symmetric about x = 0, soles on y = 0.
 // Throws OptionInvalid: unknown name, value no person has, or measurements that no one body can have together.
 MakeMannequinResult make_mannequin(const Measurements& asked, const MakeMannequinOptions& options = {});

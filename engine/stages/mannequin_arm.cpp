@@ -25,7 +25,7 @@ struct ArmRing {
 };
 // Distances from the armpit along the upper arm, then from the elbow along the forearm, then from the wrist.
 constexpr std::array<ArmRing, 4> kUpperArm = {
-    {{.020, .036, .0290, .0315}, {.052, .016, .0283, .0308}, {.090, .004, .0265, .0285}, {.132, .000, .0228, .0245}}};
+    {{.020, .036, .0277, .0300}, {.052, .016, .0283, .0308}, {.090, .004, .0265, .0285}, {.132, .000, .0228, .0245}}};
 constexpr std::array<ArmRing, 4> kForearm = {
     {{.030, .0, .0232, .0240}, {.068, .0, .0205, .0208}, {.108, .0, .0160, .0168}, {.146, .0, .0120, .0155}}};
 constexpr double kElbow = 0.135, kWrist = 0.150;

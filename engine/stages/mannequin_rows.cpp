@@ -35,16 +35,16 @@ constexpr std::array<Line, 9> kTrunkZ = {
     {{-9, 3, 2}, {-10, 3, 2}, {-3, 1, 2}, {7, 1, 1}, {10, -1, 1}, {8, -1, -1}, {3, -2, -2}, {1, -3, -3}, {-7, -1, -2}}};
 constexpr double kCrown = 0.0698;  // of an adult, over the middle of the head
 constexpr Line kShoulderZ = {-13, 0, -2}, kNeckZ = {1, 4, 0}, kHeadZ = {7, 2, 0};
-constexpr std::array<Line, 10> kLegX = {{{59, -4, 1},
-                                         {62, -3, 0},
-                                         {64, -3, -1},
-                                         {68, -3, -1},
-                                         {73, -3, -1},
-                                         {80, -3, -2},
-                                         {82, -5, -2},
-                                         {84, -6, -3},
-                                         {86, -6, -3},
-                                         {84, -7, -4}}};
+constexpr std::array<Line, 10> kLegX = {{{60, -2, 1},
+                                         {62, 0, 0},
+                                         {65, 0, -1},
+                                         {68, 0, -1},
+                                         {74, 0, -1},
+                                         {81, 0, -2},
+                                         {84, 0, -2},
+                                         {86, 0, -3},
+                                         {88, 0, -3},
+                                         {87, 0, -4}}};
 constexpr std::array<Line, 10> kLegZ = {{{1, -3, 1},
                                          {1, -4, 0},
                                          {-1, -4, -1},

@@ -70,11 +70,14 @@ class CagePoints {
   void neck() {
     constexpr std::array<double, kAround> kRadius = {37, 35, 31, 30, 33, 38, 40, 38, 37};  // thousandths
     const double factor = shape_.factor(Girth::Neck) * (1.0 + 0.1 * shape_.fatness) * 1e-3;
+    // A thick neck grows to the back and the sides: in front the throat stays under the chin.
+    const double back_shift = 0.015 * std::max(0.0, factor * 1e3 - 1.0);
+    const double middle_z = neck_axis_z(shape_) - back_shift, base_z = 0.5 * neck_axis_z(shape_) - 0.008 - back_shift;
     for (std::size_t i = 0; i < kAround; ++i) {
       const Vec3 out = ray(kHeadAzimuth[i], 0.0);
       const double back = 0.5 * (1.0 - out.z());
-      const Vec3 middle(0.0, levels_.neck + 0.014 * (back - 0.5), neck_axis_z(shape_));
-      const Vec3 base(0.0, levels_.neck - 0.030 + 0.022 * back, neck_axis_z(shape_) - 0.006);
+      const Vec3 middle(0.0, levels_.neck + 0.014 * (back - 0.5), middle_z);
+      const Vec3 base(0.0, levels_.neck - 0.030 + 0.022 * back, base_z);
       put(cage_.neck[i], middle + factor * kRadius[i] * out);
       put(cage_.shoulder[4][i], base + factor * kRadius[i] * (0.92 + 0.10 * back + 0.20 * std::abs(out.x())) * out);
     }
@@ -93,12 +96,30 @@ class CagePoints {
         put(cage_.head[r][i], centre + radius * ray(kHeadAzimuth[i], elevation));
       }
     }
+    fill_under_jaw();
     const auto& crown = table.back();
     const double size = 1e-3 * head_scale(shape_, 90.0);
     for (std::size_t k = 0; k < 3; ++k) {
       const double azimuth = 90.0 * static_cast<double>(k);
       put(cage_.crown[k][0], centre + size * crown[4 * k] * (k == 1 ? ray(0.0, 90.0) : ray(azimuth, 76.0)));
       put(cage_.crown[k][1], centre + size * crown[4 * k] * ray(45.0 + 0.5 * azimuth, k == 1 ? 76.0 : 71.0));
+    }
+  }
+
+  // Above a thick neck the jaw's underside is no narrower than the neck: a double chin, not a fold.
+  void fill_under_jaw() {
+    constexpr double kShare = 0.99;
+    const Vec3 middle = 0.5 * (at(cage_.neck.front()) + at(cage_.neck.back()));
+    for (std::size_t i = 0; i < kAround; ++i) {
+      for (const auto& [row, share] : {std::pair(0, kShare), std::pair(1, 0.95 * kShare)}) {
+        Vec3 jaw = at(cage_.head[static_cast<std::size_t>(row)][i]);
+        const Vec2 neck_out(at(cage_.neck[i]).x(), at(cage_.neck[i]).z() - middle.z());
+        const Vec2 jaw_out(jaw.x(), jaw.z() - middle.z());
+        if (jaw_out.norm() >= share * neck_out.norm()) continue;
+        jaw.x() = share * neck_out.x();
+        jaw.z() = middle.z() + share * neck_out.y();
+        put(cage_.head[static_cast<std::size_t>(row)][i], jaw);
+      }
     }
   }
 

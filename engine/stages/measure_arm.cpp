@@ -8,8 +8,9 @@
 namespace toile {
 namespace {
 
-constexpr double kStep = 0.02;                          // of the bone's length
-constexpr double kUpperLow = 0.25, kUpperHigh = 0.70;   // of the way from elbow to shoulder
+constexpr double kStep = 0.02;                         // of the bone's length
+constexpr double kUpperLow = 0.25, kUpperHigh = 0.70;  // of the way from elbow to shoulder
+constexpr double kGrown = 1.25;  // from one slice to the next: the plane meets the trunk, as on stout bodies
 constexpr double kWristLow = -0.10, kWristHigh = 0.25;  // of the way from wrist to elbow
 
 // The body turned so that the bone from `from` to `to` stands upright on the origin.
@@ -41,7 +42,11 @@ class BoneFrame {
 ArmGirths measure_arm(const TriangleMesh& body, const Skeleton::Arm& arm) {
   ArmGirths girths;
   const BoneFrame upper(body, arm.elbow, arm.shoulder), fore(body, arm.wrist, arm.elbow);
-  for (double t = kUpperLow; t <= kUpperHigh; t += kStep) girths.upper_arm = std::max(girths.upper_arm, upper.girth(t));
+  for (double t = kUpperLow; t <= kUpperHigh; t += kStep) {
+    const double g = upper.girth(t);
+    if (girths.upper_arm > 0 && g > kGrown * girths.upper_arm) break;
+    girths.upper_arm = std::max(girths.upper_arm, g);
+  }
   for (double t = kWristLow; t <= kWristHigh; t += kStep) {
     const double g = fore.girth(t);
     if (g > 0 && (girths.wrist == 0 || g < girths.wrist)) girths.wrist = g;

@@ -52,8 +52,9 @@ TEST(MakeMannequin, AskedMeasurementsAreMetOnTheSurface) {
                               {"calf_girth", 0.38},  {"neck_girth", 0.35},      {"inside_leg_length", 0.80},
                               {"knee_girth", 0.39},  {"upper_arm_girth", 0.30}, {"wrist_girth", 0.165}};
   const Body body = make_mannequin(asked, {.figure = Figure::Woman}).body;
-  const Skeleton found = find_skeleton(body.surface).skeleton;  // nothing the generator knew
-  const Measurements taken = measure_body(body.surface, found).measurements;
+  const Skeleton found = find_skeleton(body.surface).skeleton;  // nothing the generator knew but the marked bust
+  const Landmarks bust = {{"bust_l", body.landmarks.at("bust_l")}, {"bust_r", body.landmarks.at("bust_r")}};
+  const Measurements taken = measure_body(body.surface, found, bust).measurements;
   for (const auto& [name, value] : asked) EXPECT_NEAR(taken.at(name), value, kTape) << name;
 }
 
