@@ -23,7 +23,7 @@ figure{margin:1rem 0}figcaption{color:var(--soft);font-size:.9rem;margin-top:.3r
 table{border-collapse:collapse;width:100%;font-variant-numeric:tabular-nums;font-size:.95rem}
 .scroll{overflow-x:auto;margin:.6rem 0}
 caption{text-align:left;font-weight:600;padding:.3rem 0}
-th,td{padding:.3rem .6rem;border-bottom:1px solid var(--line);text-align:right;vertical-align:top}
+th,td{padding:.3rem .6rem;border-bottom:1px solid var(--line);text-align:right;vertical-align:top;white-space:nowrap}
 th:first-child,td:first-child{text-align:left}th{font-weight:600;color:var(--soft)}
 dl{display:grid;grid-template-columns:minmax(8rem,auto) 1fr;gap:.15rem .9rem;margin:.4rem 0;font-size:.95rem}
 dt{color:var(--soft)}dd{margin:0;overflow-wrap:anywhere}
@@ -37,7 +37,7 @@ ol.work>li.adds{border-left-color:var(--blue)}ol.work>li.takes{border-left-color
 .tag{font-size:.8rem;padding:.05rem .5rem;border-radius:1rem;background:var(--tint);font-weight:400;white-space:nowrap}
 .tag.warn{background:#fde7c8}.profile{width:100%;max-width:30rem;height:auto}
 @media(max-width:34rem){dl{grid-template-columns:1fr}dd{margin-bottom:.3rem}body{padding:.8rem .7rem 2rem}}
-@media print{body{max-width:none;padding:0;font-size:10pt}.wide{border:0;overflow:visible}.wide>*{min-width:0}
+@media print{body{max-width:none;padding:0;font-size:10pt}.wide{border:0;overflow:visible}.wide>*{min-width:0}.scroll{overflow:visible}table{font-size:8pt}th,td{padding:.2rem .35rem}
  h2{break-after:avoid}figure,table,ol.work>li{break-inside:avoid}}
 )";
 

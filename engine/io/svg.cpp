@@ -23,7 +23,7 @@ constexpr const char* kStyle =
     ".drawing .removal{stroke:#c8281e;stroke-width:.5;fill:#e13c32;fill-opacity:.22}"
     ".drawing .label{font-family:Helvetica,Arial,sans-serif;fill:#1c1c20;text-anchor:middle;stroke:none}"
     ".drawing .open{fill:none}"
-    ".drawing.page path{vector-effect:non-scaling-stroke;stroke-width:1px}"
+    ".drawing.page path{vector-effect:non-scaling-stroke;stroke-width:.7px}"
     ".drawing .added .cut{stroke:#2f5bd8}";
 
 // Filled kinds have a second class for lines that bound nothing.

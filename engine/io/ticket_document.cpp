@@ -156,9 +156,9 @@ HtmlTable pieces_table(const Ticket& ticket) {
     for (const TicketPiece& piece : operation.pieces) {
       std::string area = number(square_cm(piece.area), 1),
                   grain = number(tenth(piece.grain_angle * kDegreePerRadian), 1);
-      table.rows.push_back({piece.name, piece.label, std::to_string(piece.quantity), mm_text(piece.width),
-                            mm_text(piece.length), area += " cm\xC2\xB2", grain += "\xC2\xB0",
-                            mm_text(piece.seam_allowance)});
+      table.rows.push_back({piece.name, piece.label == piece.name ? std::string() : piece.label,
+                            std::to_string(piece.quantity), mm_text(piece.width), mm_text(piece.length),
+                            area += " cm\xC2\xB2", grain += "\xC2\xB0", mm_text(piece.seam_allowance)});
     }
   return table;
 }
