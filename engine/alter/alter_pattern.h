@@ -25,7 +25,7 @@ struct AlterPatternOptions {
   int max_tears_per_side = 1;    // Theta, cuts into one side over the whole run, 0-5
   double seam_preference = 1.5;  // gamma, favours existing seams over new cuts, >= 1
   double stretch_limit = 0.03;   // mu, stretch the altered cloth may keep, dimensionless, > 0
-  bool l_shapes = false;         // adjacent sides of a panel may both be released
+  bool l_shapes = false;         // leave L- and T-shaped insertions in one piece; else they become strips
   TearChoice choice = TearChoice::Release;
   bool mesh_edge_cuts = false;          // cut along mesh edges as the paper does, for comparison
   double cut_smoothness = 0.5;          // alpha, of cuts along mesh edges, 0-1
