@@ -9,8 +9,12 @@ MeshPanelsOptions mesh_options_of(const AlterOptions& options) {
   return {.triangles = garment_triangles(options)};
 }
 
-DrapeOptions drape_options_of(const AlterOptions&) {
-  return {};
+DrapeOptions drape_options_of(const AlterOptions& options) {
+  DrapeOptions drape;
+  drape.solver = options.solver;
+  drape.fibre_slack = options.fibre_slack;
+  drape.shear_limit_deg = options.shear_limit_deg;
+  return drape;
 }
 
 DerivePatternOptions derive_options_of(const AlterOptions&) {

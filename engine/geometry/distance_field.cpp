@@ -206,8 +206,10 @@ const SurfaceTree& SurfaceField::tree() const {
 
 double SurfaceField::evaluate(const Vec3& p, double reach, Vec3& gradient) {
   State& s = *state_;
-  const double bound = s.far_bound(p, reach);
-  if (bound > reach) return bound;
+  // The spline may lie below the true distance in creases, by less than half a cell: without that margin its value
+  // would jump where a bound takes over, and a line search would stall there.
+  const double far = reach + 0.5 * s.h, bound = s.far_bound(p, far);
+  if (bound > far) return bound;
 
   const Vec3 q = (p - s.origin) * s.inverse_h;
   Eigen::Vector3i centre = q.array().round().cast<int>();

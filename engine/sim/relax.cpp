@@ -69,10 +69,9 @@ class Relaxation {
       if (energy_.residual(minimiser.gradient()) < options_.stop_residual) return false;
       if (result_.iterations % options_.refactor == 0) factor(minimiser.nodes());
       ++result_.iterations;
-      if (!minimiser.step(evaluate, solver_)) {
-        result_.stalled = true;
-        return false;
-      }
+      const bool moved = minimiser.step(evaluate, solver_);
+      result_.stalled = !moved && i == 0;  // not even with friction frozen anew and the history forgotten
+      if (!moved) return false;
     }
     return true;
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 
+#include "engine/core/units.h"
+#include "engine/sim/position_based.h"
 #include "engine/sim/relax.h"
 #include "engine/sim/sewing.h"
 #include "engine/stages/arrange_panels.h"
@@ -31,6 +33,9 @@ void check_options(const DrapeOptions& o) {
   check(o.contact_stiffness > 0, "contact_stiffness", "positive");
   check(o.iterations >= 0 && o.iterations <= 100000, "iterations", "0 to 100000");
   check(o.stop_residual > 0, "stop_residual", "positive");
+  check(o.fibre_slack >= 0 && o.fibre_slack <= 0.2, "fibre_slack", "0 to 0.2");
+  check(o.shear_limit_deg >= 0 && o.shear_limit_deg <= 45, "shear_limit_deg", "0 to 45");
+  check(o.solver != SolverKind::Newton, "solver", "default or pbd");
   check(o.lift >= 0 && o.lift <= 0.1, "lift", "0 to 0.1 m");
   check(o.first_rung >= 0 && o.first_rung <= kLastRung, "first_rung", "0 to 2");
 }
@@ -151,6 +156,7 @@ class Draper {
     Contact contact(cloth_, *field_, contact_options);
     DrapeEnergy energy(cloth_, &contact, options_.gravity);
     energy.holds = holds_;
+    if (options_.solver == SolverKind::Pbd) return average_targets(energy, start);
     RelaxOptions relax_options;
     relax_options.iterations = options_.iterations;
     relax_options.stop_residual = options_.stop_residual;
@@ -165,6 +171,19 @@ class Draper {
     result_.quality.residual = relaxed.residual;
     result_.quality.settling_move = relaxed.last_move;
     result_.quality.rest = relaxed.converged ? Rest::Converged : relaxed.settled ? Rest::Settled : Rest::NotAtRest;
+  }
+
+  void average_targets(DrapeEnergy& energy, const Points3& start) {
+    PositionBasedOptions options;
+    options.iterations = options_.iterations;
+    options.fibre_slack = options_.fibre_slack;
+    options.shear_limit = options_.shear_limit_deg * kRadianPerDegree;
+    options.gravity = options_.gravity;
+    result_.drape.nodes = position_based(energy, *field_, thickness_, start, options, progress_);
+    Points3 gradient(start.rows(), 3);
+    result_.diagnostics.iterations = options.iterations;
+    result_.diagnostics.energy = energy.evaluate(result_.drape.nodes, gradient);
+    result_.quality.residual = energy.residual(gradient);
   }
 
   const Pattern& pattern_;

@@ -7,6 +7,7 @@
 // Source: design/sewing.md; [Eggler2024, Sec. 7].  SI units.
 #pragma once
 
+#include "engine/core/options.h"
 #include "engine/core/progress.h"
 #include "engine/stages/drape_guards.h"
 
@@ -18,11 +19,14 @@ struct DrapeOptions {
   double thickness = 0.003;  // distance of the cloth's nodes from the body, m, 0..0.05, to which the chord sag is added
   double sag_radius = 0.06;  // m, > 0: h^2 / (8 R) is added to the thickness, R the smallest limb radius
   double contact_stiffness = 2e6;  // N/m^3, > 0
-  int iterations = 1500;           // of the relaxation, at most, 0..100000; 300 settle the placement
+  int iterations = 2000;           // of the relaxation, at most, 0..100000; 300 settle the placement
   double stop_residual = 0.3;      // residual at which it stops, in mean node weights, > 0
   double lift = 0.015;             // m the torso is arranged above the height at which it clears the shoulders, 0..0.1
-  std::optional<BodyLevels> drafted_for;  // levels of the body the pattern's placement belongs to; empty: this body
-  bool keep_drape = false;                // take a given start as the drape, without moving it (drape_from only)
+  std::optional<BodyLevels> drafted_for;    // levels of the body the pattern's placement belongs to; empty: this body
+  bool keep_drape = false;                  // take a given start as the drape, without moving it (drape_from only)
+  SolverKind solver = SolverKind::Default;  // Pbd: the paper's averaging instead of the equilibrium solver
+  double fibre_slack = 0.0;                 // delta of the position-based solver, 0..0.2
+  double shear_limit_deg = 12.0;            // rho of the position-based solver, 0..45
   int first_rung = 0;  // of the retry ladder to begin with, 0..2: as designed, higher and firmer, grown from inside
 };
 

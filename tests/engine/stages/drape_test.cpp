@@ -34,6 +34,19 @@ TEST(Drape, TubeSkirtFromFlatClosesRoundATubeBody) {
   EXPECT_GT(result.quality.weft.p50, 0.04);
 }
 
+TEST(Drape, PaperSolverKeepsTheTightTubeOnTheBody) {
+  const TightTube t;
+  DrapeOptions options;
+  options.solver = SolverKind::Pbd;
+  options.iterations = 300;
+  options.gravity = 0;
+  const DrapeResult result = drape(t.pattern, t.mesh, t.body, options, nullptr);
+  EXPECT_EQ(result.quality.nodes_inside, 0);
+  EXPECT_GT(result.quality.weft.p50, 0.04);
+  options.solver = SolverKind::Newton;
+  EXPECT_THROW(drape(t.pattern, t.mesh, t.body, options, nullptr), Error);
+}
+
 TEST(Drape, GivenStartIsKeptWhenAsked) {
   const TightTube t;
   const Drape start = test::wrapped_tube(
