@@ -12,10 +12,16 @@ Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput&
   const DrapeOptions drape_options = drape_options_of(options);
   const auto pattern = runner.run("import_pattern", 1, input_key(garment), [&] { return read_garment(garment); });
   const auto wearer = runner.run("import_body", 1, input_key(body), [&] { return read_body(body); });
-  const auto mesh = runner.run("mesh_panels", 1, key_of(pattern.key, mesh_options),
-                               [&] { return mesh_panels(pattern.value, mesh_options, runner.progress()); });
-  const auto worn = runner.run("drape", 1, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
-    return drape(pattern.value, mesh.value, wearer.value, drape_options, runner.progress());
+  const auto mesh = runner.run("mesh_panels", 2, key_of(pattern.key, mesh_options), [&] {
+    if (auto given = read_garment_mesh(garment)) return std::move(*given);
+    return mesh_panels(pattern.value, mesh_options, runner.progress());
+  });
+  const auto worn = runner.run("drape", 2, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
+    const auto given = read_garment_drape(garment, wearer.value);
+    if (!given) return drape(pattern.value, mesh.value, wearer.value, drape_options, runner.progress());
+    DrapeOptions from_given = drape_options;
+    from_given.keep_drape = garment.keep_drape;
+    return drape_from(pattern.value, mesh.value, wearer.value, *given, from_given, runner.progress());
   });
   return {{pattern.value, mesh.value, wearer.value, worn.value, build_fitting_map(mesh.value, worn.value.drape)},
           worn.key};

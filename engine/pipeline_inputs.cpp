@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/pipeline_inputs.h"
 
+#include <cmath>
+
 #include "engine/core/content_hash.h"
 #include "engine/core/error.h"
 #include "engine/io/body_json.h"
@@ -68,11 +70,24 @@ ImportBodyResult made(Body body) {
   return result;
 }
 
+ImportedGarment take_in_garment(const GarmentInput& garment) {
+  try {
+    return import_garment(garment.bytes, garment.name, {garment.metre_per_uv_unit, garment.sidecar});
+  } catch (const Error& error) {
+    if (!error.subject.starts_with('/')) throw;
+    throw Error(error.code, garment.name + "#" + error.subject, error.message);  // the file, then the place in it
+  }
+}
+
 }  // namespace
 
 std::string input_key(const GarmentInput& garment) {
   ContentHash hash;
-  hash.add("garment").add(garment.bytes).add(garment.metre_per_uv_unit.value_or(0.0)).add(garment.sidecar);
+  hash.add("garment")
+      .add(garment.bytes)
+      .add(garment.metre_per_uv_unit.value_or(0.0))
+      .add(garment.sidecar)
+      .add(garment.keep_drape);
   return hash.hex();
 }
 
@@ -86,15 +101,24 @@ std::string input_key(const BodyInput& body) {
 }
 
 Pattern read_garment(const GarmentInput& garment) {
-  try {
-    const ImportGarmentOptions options{garment.metre_per_uv_unit, garment.sidecar};
-    Pattern pattern = import_garment(garment.bytes, garment.name, options).pattern;
-    if (pattern.name.empty()) pattern.name = garment.name;
-    return pattern;
-  } catch (const Error& error) {
-    if (!error.subject.starts_with('/')) throw;
-    throw Error(error.code, garment.name + "#" + error.subject, error.message);  // the file, then the place in it
-  }
+  Pattern pattern = take_in_garment(garment).pattern;
+  if (pattern.name.empty()) pattern.name = garment.name;
+  return pattern;
+}
+
+std::optional<PatternMesh> read_garment_mesh(const GarmentInput& garment) {
+  return take_in_garment(garment).mesh;
+}
+
+std::optional<Drape> read_garment_drape(const GarmentInput& garment, const Body& wearer) {
+  std::optional<Drape> drape = take_in_garment(garment).drape;
+  if (!drape) return drape;
+  // Garment and body come from one scene: the body's turn and shift hold for both; the garment is in metres already.
+  const Mat3 linear = wearer.normalised_from_file.topLeftCorner<3, 3>();
+  const Mat3 turn = linear / std::cbrt(linear.determinant());
+  const Vec3 shift = wearer.normalised_from_file.topRightCorner<3, 1>();
+  drape->nodes = ((drape->nodes * turn.transpose()).rowwise() + shift.transpose()).eval();
+  return drape;
 }
 
 Body read_body(const BodyInput& body) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "engine/core/body.h"
+#include "engine/core/drape.h"
 #include "engine/core/pattern.h"
+#include "engine/core/pattern_mesh.h"
 #include "engine/core/types.h"
 #include "engine/stages/import_body.h"
 
@@ -14,6 +16,7 @@ struct GarmentInput {
   Bytes bytes;       // GarmentCode specification, or an OBJ whose texture coordinates are the pattern
   std::optional<double> metre_per_uv_unit = {};  // of an OBJ; empty: found
   Bytes sidecar = {};                            // JSON beside an OBJ (obj_garment.h), or empty
+  bool keep_drape = false;                       // take the positions of an OBJ as the drape, unmoved
 };
 
 struct BodyInput {
@@ -29,6 +32,9 @@ std::string input_key(const BodyInput& body);
 
 // Throw the importers' and make_mannequin's errors; their subject names the input.
 Pattern read_garment(const GarmentInput& garment);
+// Of an OBJ that is draped: its mesh, and its positions in the normalised frame of the body it is worn by.
+std::optional<PatternMesh> read_garment_mesh(const GarmentInput& garment);
+std::optional<Drape> read_garment_drape(const GarmentInput& garment, const Body& wearer);
 Body read_body(const BodyInput& body);
 // The same with what was mended; a person has a skeleton, landmarks and measurements, a form has none.
 ImportBodyResult take_in_body(const BodyInput& body, Progress* progress = nullptr);

@@ -17,6 +17,7 @@ namespace {
 struct JobFiles {
   std::string garment, reference_body, target_body, options, out;
   std::string uv_unit, sidecar;
+  bool keep_drape = false;
   BodySource reference_source, target_source;
   std::map<std::string, std::string> given;  // option name -> value, as on the command line
 };
@@ -26,6 +27,7 @@ GarmentInput read_garment_input(const JobFiles& files) {
   if (!files.uv_unit.empty())
     input.metre_per_uv_unit = files.uv_unit == "mm" ? 1e-3 : files.uv_unit == "cm" ? 1e-2 : 1.0;
   if (!files.sidecar.empty()) input.sidecar = read_file(files.sidecar);
+  input.keep_drape = files.keep_drape;
   return input;
 }
 
@@ -78,6 +80,7 @@ void add_job_options(CLI::App& command, const std::shared_ptr<JobFiles>& files) 
       ->required();
   command.add_option("--uv-unit", files->uv_unit, "unit of an OBJ's texture coordinates; found when left out")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
+  command.add_flag("--keep-drape", files->keep_drape, "take the positions of an OBJ garment as its drape, unmoved");
   command.add_option("--seams", files->sidecar, "document beside an OBJ: seams of a flat one, labels, toile block");
   command.add_option("--options", files->options, "options of the job (JSON)");
   command.add_option("--out", files->out, "folder for the results; made if needed")->required();
