@@ -43,6 +43,8 @@ struct PushOut {
 
 constexpr double kPlateReach = 0.02;  // m, of the plate where the body is trusted by half
 constexpr double kLeastTrust = 1e-4;  // far nodes: the plate then reaches ten times as far
+constexpr double kHeld = 1e3;         // weight of near nodes, which keep their place
+constexpr double kHemShare = 0.1;     // of the plate at open edges: a hem goes on nearly as the cloth above it does
 constexpr double kLeastCotangent = 1e-3, kMostCotangent = 10.0;
 
 // 1 near the body, falling smoothly to kLeastTrust far from it.
@@ -62,8 +64,8 @@ Triangles node_triangles(const PatternMesh& mesh) {
   return out.topRows(count);
 }
 
-// Replaces the displacement of far nodes by a thin plate through that of the near ones. Rows of open edges are left out
-// of the plate: a hem goes on as the cloth above it does.
+// Replaces the displacement of far nodes by a thin plate through that of the near ones. Open edges count
+// little in the plate: a hem goes on nearly as the cloth above it does.
 int bridge_gaps(const Triangles& triangles, const Points3& rest, const Eigen::VectorXd& trusted, Points3& carried) {
   const auto gaps = static_cast<int>((trusted.array() < 1.0).count());
   if (gaps == 0) return 0;
@@ -74,10 +76,10 @@ int bridge_gaps(const Triangles& triangles, const Points3& rest, const Eigen::Ve
     if (edges.opposite[h] < 0)
       for (const int v :
            {half_edge_start(triangles, static_cast<int>(h)), half_edge_end(triangles, static_cast<int>(h))})
-        inner[v] = 0.0;
+        inner[v] = kHemShare / areas[v];
   const SparseMatrix laplacian = cotangent_laplacian(rest, triangles, kLeastCotangent, kMostCotangent);
   SparseMatrix system = std::pow(kPlateReach, 4) * (laplacian * inner.asDiagonal() * laplacian);
-  const Eigen::VectorXd held = areas.cwiseProduct(trusted);
+  const Eigen::VectorXd held = (trusted.array() < 1.0).select(trusted.array(), kHeld) * areas.array();
   for (Eigen::Index i = 0; i < held.size(); ++i) system.coeffRef(i, i) += held[i];
   system.makeCompressed();
   SparseSolver solver;

@@ -77,7 +77,7 @@ TEST(TransportGarment, BridgesTheGapBetweenLimbsInsteadOfTearingIt) {
   }
   for (Eigen::Index i = 0; i < carried.rows(); ++i)
     shift = std::max(shift, std::abs(carried(i, 0) - drape.nodes(i, 0)));
-  EXPECT_NEAR(shift, 0.05, 2e-3);  // the sheet does follow the legs
+  EXPECT_NEAR(shift, 0.05, 5e-3);  // the sheet does follow the legs; a plate swings a little beyond
   EXPECT_LT(longest, 0.07);        // carried one by one, neighbours at the middle part by 0.12
 }
 
