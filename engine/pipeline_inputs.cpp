@@ -125,13 +125,16 @@ Body read_body(const BodyInput& body) {
   return take_in_body(body).body;
 }
 
+Landmarks given_landmarks(const BodyInput& input, const Mat4& normalised_from_file) {
+  if (input.landmarks.empty()) return {};
+  return normalised_landmarks(read_landmarks(input.landmarks, input.name + " landmarks"), normalised_from_file);
+}
+
 ImportBodyResult take_in_body(const BodyInput& input, Progress* progress) {
   if (input.name.starts_with(kBuiltin)) return made(make_builtin(input.name));
   if (looks_like_json(input.bytes)) return made(make_measured(input));
   ImportBodyResult result = import_body(input.bytes, input.name, input.import, progress);
-  if (!input.landmarks.empty())
-    result.body.landmarks = normalised_landmarks(read_landmarks(input.landmarks, input.name + " landmarks"),
-                                                 result.body.normalised_from_file);
+  result.body.landmarks = given_landmarks(input, result.body.normalised_from_file);
   if (result.body.kind == BodyKind::Human) measure(result.body);
   return result;
 }

@@ -39,4 +39,7 @@ Body read_body(const BodyInput& body);
 // The same with what was mended; a person has a skeleton, landmarks and measurements, a form has none.
 ImportBodyResult take_in_body(const BodyInput& body, Progress* progress = nullptr);
 
+// The landmarks handed in with a body, in its normalised frame; empty if there were none.
+Landmarks given_landmarks(const BodyInput& input, const Mat4& normalised_from_file);
+
 }  // namespace toile

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 
+#include "engine/core/error.h"
+#include "engine/core/units.h"
 #include "engine/io/body_json.h"
 #include "engine/io/mesh_file.h"
 #include "engine/io/record_json.h"
+#include "engine/stages/measure_scan.h"
 #include "server/app/body_source.h"
 #include "server/app/command.h"
 #include "server/app/files.h"
@@ -18,7 +21,38 @@ struct BodyArguments {
   std::string out;
 };
 
-Record body_document(const ImportBodyResult& result) {
+// The skin as it was scanned, without what closes its holes: the mannequin bridges them better than a patch does.
+Body scanned_part(const ImportBodyResult& result) {
+  int vertices = 0;
+  for (const ClosedHole& hole : result.repairs.holes) vertices += hole.added_vertices;
+  Body scan = result.body;
+  TriangleMesh& skin = scan.surface;
+  skin.vertices = result.body.surface.vertices.topRows(skin.vertex_count() - vertices);
+  skin.triangles = result.body.surface.triangles.topRows(skin.triangle_count() - result.repairs.added_triangles());
+  return scan;
+}
+
+// Scans are measured through a registered mannequin; a surface that needed no closing is measured as it is.
+Record measure_if_scan(ImportBodyResult& result, const Landmarks& given, Progress* progress) {
+  Record how;
+  if (result.body.kind != BodyKind::Human || result.repairs.holes.empty()) return how.add("by", "surface");
+  MeasureScanResult scan;
+  try {
+    scan = measure_scan(scanned_part(result), given, progress);
+  } catch (const Error& error) {
+    if (error.code != ErrorCode::RegistrationFailed) throw;
+    // The surface was measured before: less exact on a scan, and said so.
+    return how.add("by", "surface").add("warnings", std::vector<std::string>{error.message});
+  }
+  result.body.landmarks = std::move(scan.measured.landmarks);
+  result.body.measurements = std::move(scan.measured.measurements);
+  return how.add("by", "registered_mannequin")
+      .add("surface_mean_mm", scan.registration.surface_mean * kMmPerMetre)
+      .add("surface_p95_mm", scan.registration.surface_p95 * kMmPerMetre)
+      .add("warnings", scan.registration.warnings);
+}
+
+Record body_document(const ImportBodyResult& result, const Record& measured) {
   Record counts;
   counts.add("file_vertices", result.file_vertices)
       .add("file_triangles", result.file_triangles)
@@ -28,18 +62,21 @@ Record body_document(const ImportBodyResult& result) {
   Record document;
   document.add("schema", "toile/body/1");
   for (const RecordField& field : body.fields()) document.add(field.name, field.value);
-  document.add("normalisation", describe_normalisation(result.normalisation))
+  document.add("measured", measured)
+      .add("normalisation", describe_normalisation(result.normalisation))
       .add("repairs", describe_repairs(result.repairs))
       .add("counts", std::move(counts));
   return document;
 }
 
 void run(const BodyArguments& arguments, Context& context) {
-  const ImportBodyResult result =
-      take_in_body(read_body_input(arguments.file.empty() ? arguments.measurements : arguments.file, arguments.source),
-                   &context.progress);
+  const BodyInput input =
+      read_body_input(arguments.file.empty() ? arguments.measurements : arguments.file, arguments.source);
+  ImportBodyResult result = take_in_body(input, &context.progress);
+  const Record measured =
+      measure_if_scan(result, given_landmarks(input, result.body.normalised_from_file), &context.progress);
   if (!arguments.out.empty()) write_file(arguments.out, write_obj(result.body.surface));
-  const Bytes document = write_json(body_document(result));
+  const Bytes document = write_json(body_document(result, measured));
   std::fwrite(document.data(), 1, document.size(), stdout);
 }
 
