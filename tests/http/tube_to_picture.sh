@@ -31,6 +31,10 @@ for name in $(get "/v1/jobs/$job/artifacts" | jq -r '.items[].name'); do
 done
 [ "$count" -ge 4 ] || fail "only $count files were compared"
 
+# A wider tube wants one strip.
+get "/v1/jobs/$job/artifacts/ticket.json" > "$work/ticket"
+expect "the operations" "$(jq -c '[.operations[].op]' "$work/ticket")" '["insert_strip"]'
+
 # The same job again answers at once, from what is known.
 expect "an equal job" "$(post /v1/jobs "$request" -o /dev/null -w '%{http_code}')" 200
 # Another job on the same reference reads its drape back instead of computing it.
