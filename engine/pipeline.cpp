@@ -27,12 +27,11 @@ Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput&
           worn.key};
 }
 
-AlterResult alter_garment(const GarmentInput& garment, const BodyInput& reference_body, const BodyInput& target_body,
-                          const AlterOptions& options, StageRunner& runner) {
+Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInput& reference_body,
+                                     const BodyInput& target_body, const AlterOptions& options, StageRunner& runner) {
   const DrapeOptions drape_options = drape_options_of(options);
   const DerivePatternOptions derive_options = derive_options_of(options);
   const DeriveInLoopOptions loop_options = loop_options_of(options);
-  const AlterPatternOptions alter_options = alter_options_of(options);
 
   auto reference = drape_garment(garment, reference_body, options, runner);
   const auto& [pattern, mesh, wearer, worn, fit] = reference.value;
@@ -51,13 +50,22 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
   });
   const auto drawn = runner.run("fit_pattern_edges", 1, derived.key,
                                 [&] { return fit_pattern_edges(pattern, mesh, derived.value.mesh.rest); });
-  const auto altered = runner.run("alter_pattern", 1, key_of(derived.key, alter_options), [&] {
-    return alter_pattern(pattern, mesh, derived.value.mesh.rest, alter_options, runner.progress());
-  });
 
   FittingMap fit_before = build_fitting_map(mesh, before.value.drape);
-  return {std::move(reference.value), target.value,  registered.value, transported.value, before.value,
-          std::move(fit_before),      derived.value, drawn.value,      altered.value};
+  return {{std::move(reference.value), target.value, registered.value, transported.value, before.value,
+           std::move(fit_before), derived.value, drawn.value},
+          derived.key};
+}
+
+AlterResult alter_garment(const GarmentInput& garment, const BodyInput& reference_body, const BodyInput& target_body,
+                          const AlterOptions& options, StageRunner& runner) {
+  const AlterPatternOptions alter_options = alter_options_of(options);
+  auto ideal = derive_garment(garment, reference_body, target_body, options, runner);
+  const auto& [pattern, mesh, wearer, worn, fit] = ideal.value.reference;
+  const auto altered = runner.run("alter_pattern", 1, key_of(ideal.key, alter_options), [&] {
+    return alter_pattern(pattern, mesh, ideal.value.derived.mesh.rest, alter_options, runner.progress());
+  });
+  return {std::move(ideal.value), altered.value};
 }
 
 }  // namespace toile

@@ -29,7 +29,8 @@ struct DrapedGarment {
   FittingMap fit;
 };
 
-struct AlterResult {
+// The ideal pattern, and what led to it.
+struct DerivedGarment {
   DrapedGarment reference;
   Body target_body;
   RegisterBodiesResult registration;
@@ -38,15 +39,20 @@ struct AlterResult {
   FittingMap fit_before;
   DerivedPattern derived;                // the ideal pattern and its drape on the target body
   FitPatternEdgesResult target_pattern;  // the ideal pattern drawn with the edges of the original
-  AlterPatternResult altered;            // how the original cloth becomes it
+};
+
+struct AlterResult : DerivedGarment {
+  AlterPatternResult altered;  // how the original cloth becomes the ideal pattern
 };
 
 // How many stages a runner of each goes through, for its share of the progress.
-inline constexpr int kDrapeStages = 4, kAlterStages = 11;
+inline constexpr int kDrapeStages = 4, kDeriveStages = 10, kAlterStages = 11;
 
-// Both throw what their stages throw.
+// All throw what their stages throw.
 Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput& body, const AlterOptions& options,
                                    StageRunner& runner);
+Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInput& reference_body,
+                                     const BodyInput& target_body, const AlterOptions& options, StageRunner& runner);
 AlterResult alter_garment(const GarmentInput& garment, const BodyInput& reference_body, const BodyInput& target_body,
                           const AlterOptions& options, StageRunner& runner);
 

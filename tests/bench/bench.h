@@ -41,6 +41,7 @@ struct Arguments {
 
 // Each returns a process exit code. Add yours here and to the list in main.cpp.
 int bench_inputs(const Arguments& arguments);
+int bench_derive(const Arguments& arguments);
 int bench_drape(const Arguments& arguments);
 int bench_view(const Arguments& arguments);
 int bench_alteration(const Arguments& arguments);

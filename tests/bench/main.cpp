@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   const std::map<std::string, Entry> benches = {
       {"alteration", {"draw an alteration: GARMENT.json ACROSS ALONG FOLDER", bench_alteration}},
       {"inputs", {"time against quality of reading and meshing what users hand in", bench_inputs}},
+      {"derive", {"target patterns: fit and position before and after, over garments and bodies", bench_derive}},
       {"drape",
        {"sew and drape: [GARMENT...] [growth] [--triangles N] [--body NAME] [--pictures FOLDER]", bench_drape}},
       {"panels", {"draw a flat pattern: GARMENT.json OUT.png|OUT.svg", bench_panels}},

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// derive [GARMENT...] [--bodies a,b] [--triangles N] [--pictures FOLDER] [--stages FOLDER]: target patterns of garments
+// of ../shared/data on bodies of it: fit and position after draping the target pattern beside those before.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "engine/core/error.h"
+#include "engine/render/drawing_picture.h"
+#include "engine/render/png.h"
+#include "engine/stages/draw_pattern.h"
+#include "tests/bench/derive.h"
+#include "tests/support/shared_data.h"
+
+namespace toile::bench {
+namespace {
+
+constexpr double kMm = 1e3, kPercent = 100.0;
+// Gates of the pair table: what the median must reach, and how much worse a single pair may get.
+constexpr double kLeastFall = 0.75, kGoodStretch = 0.007, kGoodPosition = 8e-3;
+constexpr double kWorseStretch = 0.001, kWorsePosition = 1e-3, kSeamGate = 0.5e-3;
+
+struct Request {
+  std::vector<std::string> garments, bodies;
+  int triangles = 4000;
+  std::string pictures, stages;
+};
+
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream in(list);
+  for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+  return words;
+}
+
+Request parse(const std::vector<std::string>& words) {
+  Request request;
+  request.bodies = {"ggg_small_female", "ggg_mean_female", "ggg_male_extra", "ggg_large_male", "scan_b"};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool more = i + 1 < words.size();
+    if (words[i] == "--triangles" && more)
+      request.triangles = std::atoi(words[++i].c_str());
+    else if (words[i] == "--bodies" && more)
+      request.bodies = words_of(words[++i]);
+    else if (words[i] == "--pictures" && more)
+      request.pictures = words[++i];
+    else if (words[i] == "--stages" && more)
+      request.stages = words[++i];
+    else
+      request.garments.push_back(words[i]);
+  }
+  if (request.garments.empty())
+    request.garments = {"leggings_tight", "leggings_zero_ease", "tshirt_fitted",    "pants_straight",
+                        "skirt_pencil",   "dress_sleeveless",   "shirt_darts_long", "sweater_loose_hood"};
+  return request;
+}
+
+struct Outcome {
+  double stretch_before = 0, stretch_after = 0, position_before = 0, position_after = 0;
+  double seam = 0, deviation = 0;
+  int flips = 0, crossing_panels = 0;
+};
+
+Outcome outcome_of(const DerivedGarment& r) {
+  Outcome o;
+  const PatternMesh& mesh = r.reference.mesh;
+  o.stretch_before = compare_fits(mesh, r.reference.fit, r.fit_before).whole.rms_stretch;
+  o.stretch_after = compare_fits(mesh, r.reference.fit, r.derived.fit).whole.rms_stretch;
+  o.position_before = compare_positions(r.transported.drape.nodes, r.before.drape.nodes).rms;
+  o.position_after = compare_positions(r.transported.drape.nodes, r.derived.drape.drape.nodes).rms;
+  o.seam = std::max(r.derived.derivation.seam_residual, r.target_pattern.largest_seam_mismatch);
+  o.deviation = r.target_pattern.largest_deviation;
+  o.flips = r.derived.derivation.flipped_triangles;
+  for (const Panel& panel : r.target_pattern.pattern.panels) o.crossing_panels += crosses_itself(panel);
+  return o;
+}
+
+void draw(const Request& request, const std::string& name, const DerivedGarment& r) {
+  if (request.pictures.empty()) return;
+  std::filesystem::create_directories(request.pictures);
+  DrawingPictureOptions options;
+  options.title = name;
+  const Bytes png = write_png(draw_picture(draw_changes(r.reference.pattern, r.target_pattern.pattern), options));
+  std::ofstream(request.pictures + "/" + name + ".png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+// "stretch error: median falls by 84 % to 0.6 %" and whether that is enough.
+bool judge(const std::vector<Outcome>& all, const char* what, double Outcome::*before, double Outcome::*after,
+           double good, double scale, const char* unit) {
+  std::vector<double> falls, reached;
+  for (const Outcome& o : all) {
+    falls.push_back(o.*before > 0 ? 1.0 - o.*after / (o.*before) : 0.0);
+    reached.push_back(o.*after);
+  }
+  const bool met = median(falls) >= kLeastFall || median(reached) <= good;
+  std::printf("%s: in the median down by %.0f %%, to %.2f %s: %s\n", what, kPercent * median(falls),
+              scale * median(reached), unit, met ? "met" : "NOT met");
+  return met;
+}
+
+bool verdict(const char* what, int count) {
+  std::printf("%s: %d: %s\n", what, count, count == 0 ? "met" : "NOT met");
+  return count == 0;
+}
+
+int summarise(const std::vector<Outcome>& all, int failures) {
+  const auto count = [&](auto&& bad) { return static_cast<int>(std::count_if(all.begin(), all.end(), bad)); };
+  bool met =
+      judge(all, "stretch error", &Outcome::stretch_before, &Outcome::stretch_after, kGoodStretch, kPercent, "%");
+  met &= judge(all, "position error", &Outcome::position_before, &Outcome::position_after, kGoodPosition, kMm, "mm");
+  met &= verdict("pairs worse by more than 0.1 % stretch",
+                 count([](const Outcome& o) { return o.stretch_after > o.stretch_before + kWorseStretch; }));
+  met &= verdict("pairs worse by more than 1 mm",
+                 count([](const Outcome& o) { return o.position_after > o.position_before + kWorsePosition; }));
+  met &= verdict("pairs with a sewn side off by more than 0.5 mm",
+                 count([](const Outcome& o) { return o.seam > kSeamGate; }));
+  met &= verdict("pairs with flipped triangles", count([](const Outcome& o) { return o.flips > 0; }));
+  met &=
+      verdict("pairs with a panel that overlaps itself", count([](const Outcome& o) { return o.crossing_panels > 0; }));
+  met &= verdict("pairs that failed", failures);
+  return met ? 0 : 1;
+}
+
+}  // namespace
+
+int bench_derive(const Arguments& arguments) {
+  if (!test::has_shared_data()) {
+    std::fprintf(stderr, "toile-bench derive needs ../shared/data\n");
+    return 2;
+  }
+  const Request request = parse(arguments.words);
+  const auto stages = stage_store(request.stages);
+  AlterOptions options;
+  options.triangles = request.triangles;
+  Table table({"garment", "body", "stretch before %", "after %", "position before mm", "after mm", "seam mm", "edge mm",
+               "bent", "polylines", "flips", "overlaps", "passes %", "sweeps", "rest", "CPU s"});
+  std::vector<Outcome> outcomes;
+  int failures = 0;
+  for (const std::string& garment : request.garments)
+    for (const std::string& body : request.bodies) {
+      std::printf("%s -> %s ...\n", garment.c_str(), body.c_str());
+      std::fflush(stdout);
+      const double start = cpu_seconds();
+      try {
+        const DerivedGarment r = derive_pair(garment, body, options, stages.get());
+        const Outcome o = outcome_of(r);
+        outcomes.push_back(o);
+        std::string passes;
+        for (const double e : r.derived.pass_errors) passes.append(fixed(kPercent * e, 2)).append(" ");
+        table.add({garment, body, fixed(kPercent * o.stretch_before, 2), fixed(kPercent * o.stretch_after, 2),
+                   fixed(kMm * o.position_before, 1), fixed(kMm * o.position_after, 1), fixed(kMm * o.seam, 3),
+                   fixed(kMm * o.deviation, 2), std::to_string(r.target_pattern.bent_edges),
+                   std::to_string(r.target_pattern.polyline_edges), std::to_string(o.flips),
+                   std::to_string(o.crossing_panels), passes, std::to_string(r.derived.derivation.sweeps.size()),
+                   std::string(rest_name(r.derived.drape.quality.rest)), fixed(cpu_seconds() - start, 2)});
+        draw(request, garment + "_" + body, r);
+      } catch (const Error& error) {
+        ++failures;
+        table.add({garment, body, error.message});
+      }
+    }
+  table.print(arguments.csv);
+  return summarise(outcomes, failures);
+}
+
+}  // namespace toile::bench
