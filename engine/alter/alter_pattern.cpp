@@ -10,6 +10,8 @@
 namespace toile {
 namespace {
 
+constexpr double kLeastPart = 2e-5;  // m^2: what a dart leaves of an opening and is smaller is crumbs
+
 TearPatternOptions pass_options(const AlterPatternOptions& options) {
   TearPatternOptions pass;
   pass.candidates.stretch_limit = options.stretch_limit;
@@ -24,10 +26,44 @@ TearPatternOptions pass_options(const AlterPatternOptions& options) {
   return pass;
 }
 
-std::vector<AlteredRegion> regions_of(const RecutPanel& recut, const std::string& prefix) {
+// Outlines of a panel's darts and slits, which the stretched sheet has filled.
+Loops wedge_outlines(const std::vector<DartWedge>& wedges, const Points2& rest) {
+  Loops outlines;
+  for (const DartWedge& wedge : wedges) {
+    outlines.emplace_back();
+    for (const int v : wedge.legs[1]) outlines.back().emplace_back(rest.row(v));
+    for (auto v = wedge.legs[0].rbegin() + 1; v != wedge.legs[0].rend(); ++v)
+      outlines.back().emplace_back(rest.row(*v));
+  }
+  return outlines;
+}
+
+std::vector<PolygonWithHoles> without(const PolygonWithHoles& cloth, const Loops& wedges) {
+  if (wedges.empty() || !cloth.holes.empty()) return {cloth};
+  return polygon_difference({cloth.outline}, wedges);
+}
+
+// The largest part: crumbs come from darts of the target that cross themselves.
+std::vector<Vec2> outline_without(const std::vector<Vec2>& outline, const Loops& wedges) {
+  if (wedges.empty()) return outline;
+  std::vector<Vec2> largest = outline;
+  double most = 0.0;
+  for (const PolygonWithHoles& part : polygon_difference({outline}, wedges))
+    if (area(part) > most) {
+      most = area(part);
+      largest = part.outline;
+    }
+  return largest;
+}
+
+std::vector<AlteredRegion> regions_of(const RecutPanel& recut, const std::string& prefix, const Loops& wedges) {
   std::vector<AlteredRegion> regions;
   for (const PolygonWithHoles& opening : recut.openings)
-    regions.push_back({prefix + std::to_string(regions.size() + 1), opening, area(opening), -1});
+    for (PolygonWithHoles& part : without(opening, wedges))
+      if (area(part) > kLeastPart) {
+        const double size = area(part);
+        regions.push_back({prefix + std::to_string(regions.size() + 1), std::move(part), size, -1});
+      }
   return regions;
 }
 
@@ -44,8 +80,8 @@ bool on_slit(const Sheet& sheet, const BorderEdge& edge) {
 }
 
 // The flat cloth as the cuts part it, less what is taken away.
-std::vector<PolygonWithHoles> kept_cloth(const Sheet& sheet, const RecutPanel& removal) {
-  Loops taken;
+std::vector<PolygonWithHoles> kept_cloth(const Sheet& sheet, const RecutPanel& removal, const Loops& wedges) {
+  Loops taken = wedges;
   for (const PolygonWithHoles& opening : removal.openings) taken.push_back(opening.outline);
   std::vector<PolygonWithHoles> kept;
   for (const auto& loop : border_loops(sheet)) {
@@ -106,15 +142,17 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
     const RecutPanel insertion = recut(inserting.sheets[p], {options.l_shapes});
     const RecutPanel removal = recut(removing.sheets[p], {options.l_shapes});
+    const Loops wedges = wedge_outlines(inserting.sheets[p].wedges, mesh.rest),
+                target_wedges = wedge_outlines(inserting.sheets[p].wedges, target_rest);
     PanelAlteration panel;
     panel.panel = pattern.panels[p].name;
-    panel.original = removal.wanted;
-    panel.target = insertion.wanted;
-    panel.kept = kept_cloth(inserting.sheets[p], removal);
+    panel.original = outline_without(removal.wanted, wedges);
+    panel.target = outline_without(insertion.wanted, target_wedges);
+    panel.kept = kept_cloth(inserting.sheets[p], removal, wedges);
     panel.cut_lines = cut_lines(inserting.sheets[p]);
-    panel.kept_in_target = insertion.kept;
-    panel.insertions = regions_of(insertion, panel.panel + "_insertion_");
-    panel.removals = regions_of(removal, panel.panel + "_removal_");
+    for (const auto& kept : insertion.kept) panel.kept_in_target.push_back(outline_without(kept, target_wedges));
+    panel.insertions = regions_of(insertion, panel.panel + "_insertion_", target_wedges);
+    panel.removals = regions_of(removal, panel.panel + "_removal_", wedges);
     panel.insertion_pass = inserting.panels[p];
     panel.removal_pass = removing.panels[p];
     result.dropped_regions += insertion.dropped + removal.dropped;

@@ -160,6 +160,7 @@ int LineWalk::split(int right, int left) {
     std::replace(sheet_.faces[f].begin(), sheet_.faces[f].end(), left, middle);
     std::replace(other.begin(), other.end(), right, middle);
     sheet_.faces.push_back(other);
+    sheet_.folded.push_back(sheet_.folded[f]);
     enter(f);
     enter(sheet_.faces.size() - 1);
   }

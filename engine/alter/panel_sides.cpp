@@ -3,36 +3,11 @@
 
 #include <algorithm>
 
+#include "engine/alter/panel_outline.h"
 #include "engine/core/units.h"
 
 namespace toile {
 namespace {
-
-struct OutlineEdge {
-  int edge;
-  std::vector<int> vertices;  // counter-clockwise
-};
-
-// The panel's edges that have a length, counter-clockwise.
-std::vector<OutlineEdge> outline_edges(const PatternMesh& mesh, int panel) {
-  std::vector<OutlineEdge> edges;
-  const auto& all = mesh.edge_vertices[static_cast<std::size_t>(panel)];
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (all[k].size() > 1) edges.push_back({static_cast<int>(k), all[k]});
-  if (mesh.panel_reversed[static_cast<std::size_t>(panel)]) {
-    std::reverse(edges.begin(), edges.end());
-    for (OutlineEdge& edge : edges) std::reverse(edge.vertices.begin(), edge.vertices.end());
-  }
-  return edges;
-}
-
-bool turns_between(const PatternMesh& mesh, const OutlineEdge& before, const OutlineEdge& after) {
-  const auto at = [&](int v) { return Vec2(mesh.rest.row(v)); };
-  const Vec2 in = at(before.vertices.back()) - at(before.vertices[before.vertices.size() - 2]);
-  const Vec2 out = at(after.vertices[1]) - at(after.vertices[0]);
-  const double angle = std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
-  return std::abs(angle) >= kCornerTurn * kRadianPerDegree;
-}
 
 bool edge_is_sewn(const Pattern& pattern, const SeamSide& side) {
   return std::any_of(pattern.seams.begin(), pattern.seams.end(),
@@ -41,30 +16,48 @@ bool edge_is_sewn(const Pattern& pattern, const SeamSide& side) {
 
 void append(PanelSide& side, const OutlineEdge& edge, const Pattern& pattern, int panel) {
   side.edges.push_back(edge.edge);
-  side.vertices.insert(side.vertices.end(), edge.vertices.begin() + (side.vertices.empty() ? 0 : 1),
-                       edge.vertices.end());
+  // Across the mouth of a wedge the side goes on with a vertex of its own.
+  const bool joined = !side.vertices.empty() && side.vertices.back() == edge.vertices.front();
+  side.vertices.insert(side.vertices.end(), edge.vertices.begin() + (joined ? 1 : 0), edge.vertices.end());
   const SeamSide name{PanelId(panel), edge.edge};
   side.locked = side.locked || pattern.edge(name).locked || pattern.edge(name).zip;
   side.sewn = side.sewn || edge_is_sewn(pattern, name);
 }
 
+constexpr double kWedgeTurn = 45.0;  // degrees: a side goes on across a wedge that turns it less
+
+bool is_leg(const std::vector<DartWedge>& wedges, int edge) {
+  return std::any_of(wedges.begin(), wedges.end(),
+                     [&](const DartWedge& wedge) { return wedge.edges[0] == edge || wedge.edges[1] == edge; });
+}
+
 }  // namespace
 
-std::vector<PanelSide> find_panel_sides(const Pattern& pattern, const PatternMesh& mesh, int panel) {
-  const std::vector<OutlineEdge> edges = outline_edges(mesh, panel);
+std::vector<PanelSide> find_panel_sides(const Pattern& pattern, const PatternMesh& mesh, int panel,
+                                        const std::vector<DartWedge>& wedges) {
+  std::vector<OutlineEdge> edges = outline_edges(mesh, panel);
+  std::erase_if(edges, [&](const OutlineEdge& edge) { return is_leg(wedges, edge.edge); });
   const std::size_t count = edges.size();
-  std::size_t first = 0;  // an edge that begins at a corner
-  for (std::size_t k = 0; k < count; ++k)
-    if (turns_between(mesh, edges[(k + count - 1) % count], edges[k])) {
-      first = k;
-      break;
-    }
+  const auto corner = [&](std::size_t k) {  // where edge k begins
+    const OutlineEdge& before = edges[(k + count - 1) % count];
+    const double limit = before.vertices.back() == edges[k].vertices.front() ? kCornerTurn : kWedgeTurn;
+    return std::abs(turn_between(mesh.rest, before, edges[k])) >= limit * kRadianPerDegree;
+  };
+  std::size_t first = 0;
+  while (first + 1 < count && !corner(first)) ++first;
+  if (!corner(first)) first = 0;
   std::vector<PanelSide> sides;
   for (std::size_t i = 0; i < count; ++i) {
-    const OutlineEdge& edge = edges[(first + i) % count];
-    if (sides.empty() || turns_between(mesh, edges[(first + i + count - 1) % count], edge)) sides.emplace_back();
-    append(sides.back(), edge, pattern, panel);
+    if (sides.empty() || corner((first + i) % count)) sides.emplace_back();
+    append(sides.back(), edges[(first + i) % count], pattern, panel);
   }
+  for (const DartWedge& wedge : wedges)
+    for (PanelSide& side : sides)
+      if (side.holds(wedge.legs[0].front()) && side.holds(wedge.legs[1].front()))
+        for (const int edge : wedge.edges) {
+          const PanelEdge& leg = pattern.panels[static_cast<std::size_t>(panel)].edges[static_cast<std::size_t>(edge)];
+          side.locked = side.locked || leg.locked || leg.zip;
+        }
   return sides;
 }
 

@@ -2,8 +2,9 @@
 // The sides of a panel: runs of edges between corners, and who is sewn to whom along them.
 #pragma once
 
-#include "engine/core/pattern.h"
-#include "engine/core/pattern_mesh.h"
+#include <algorithm>
+
+#include "engine/alter/dart_wedges.h"
 
 namespace toile {
 
@@ -15,10 +16,14 @@ struct PanelSide {
   std::vector<int> vertices;  // pattern vertices from corner to corner, counter-clockwise
   bool locked = false;        // holds a locked edge or a zip: neither opened nor cut
   bool sewn = false;          // at least one of its edges is
+
+  bool holds(int vertex) const { return std::find(vertices.begin(), vertices.end(), vertex) != vertices.end(); }
 };
 
 // Counter-clockwise round the panel; side i ends where side i + 1 begins. A panel without corners has one side.
-std::vector<PanelSide> find_panel_sides(const Pattern& pattern, const PatternMesh& mesh, int panel);
+// The legs of `wedges` belong to none: the side they interrupt runs on across the mouth.
+std::vector<PanelSide> find_panel_sides(const Pattern& pattern, const PatternMesh& mesh, int panel,
+                                        const std::vector<DartWedge>& wedges);
 
 // The same pattern vertex seen from the other ply.
 struct SeamPartner {

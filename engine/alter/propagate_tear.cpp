@@ -113,6 +113,7 @@ Vec2 tear_direction(const Sheet& sheet, int vertex, const TearOptions& options) 
   const SheetVertex& start = sheet.vertices[static_cast<std::size_t>(vertex)];
   Mat2 stretch = Mat2::Zero();
   for (std::size_t f = 0; f < sheet.faces.size(); ++f) {
+    if (sheet.folded[f]) continue;
     const auto& face = sheet.faces[f];
     Vec2 centre = Vec2::Zero();
     for (const int v : face) centre += sheet.vertices[static_cast<std::size_t>(v)].flat / 3.0;

@@ -24,6 +24,25 @@ void attach_sides(Sheet& sheet, int first_vertex) {
   }
 }
 
+// The folded cloth of darts and slits takes part, so that cloth on both sides of a mouth keeps its distance. A wedge
+// that is turned over somewhere stays open.
+void fill_wedges(Sheet& sheet, const Points2& cloth, int first_vertex) {
+  for (const DartWedge& wedge : sheet.wedges) {
+    std::vector<std::array<int, 3>> triangles = wedge_triangles(wedge, cloth);
+    const auto flat = [&](int v) { return Vec2(cloth.row(v)); };
+    const bool sound = std::all_of(triangles.begin(), triangles.end(), [&](const auto& t) {
+      const Vec2 a = flat(t[1]) - flat(t[0]), b = flat(t[2]) - flat(t[0]);
+      return a.x() * b.y() - a.y() * b.x() > 1e-4 * a.squaredNorm();
+    });
+    if (!sound) continue;
+    for (std::array<int, 3>& triangle : triangles) {
+      for (int& v : triangle) v -= first_vertex;
+      sheet.faces.push_back(triangle);
+      sheet.folded.push_back(true);
+    }
+  }
+}
+
 // The side a border edge lies on: shared by both ends and neighbouring on it.
 int side_of_edge(const Sheet& sheet, int from, int to) {
   for (const SheetAnchor& a : sheet.vertices[static_cast<std::size_t>(from)].anchors) {
@@ -40,7 +59,8 @@ Sheet make_sheet(const Pattern& pattern, const PatternMesh& mesh, const Points2&
                  int panel) {
   Sheet sheet;
   sheet.panel = panel;
-  sheet.sides = find_panel_sides(pattern, mesh, panel);
+  sheet.wedges = find_dart_wedges(pattern, mesh, panel);
+  sheet.sides = find_panel_sides(pattern, mesh, panel, sheet.wedges);
   for (const PanelSide& side : sheet.sides) {
     sheet.cloth_sides.emplace_back(points_of(side.vertices, cloth));
     sheet.wanted_sides.emplace_back(points_of(side.vertices, wanted));
@@ -65,6 +85,8 @@ Sheet make_sheet(const Pattern& pattern, const PatternMesh& mesh, const Points2&
                    .norm();
   }
   sheet.edge_length = edges / std::max<double>(1.0, 3.0 * static_cast<double>(sheet.faces.size()));
+  sheet.folded.assign(sheet.faces.size(), false);
+  fill_wedges(sheet, cloth, range.vertex_begin);
   attach_sides(sheet, range.vertex_begin);
   return sheet;
 }

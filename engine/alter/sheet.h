@@ -44,6 +44,8 @@ struct Sheet {
   int panel = 0;
   std::vector<SheetVertex> vertices;
   std::vector<std::array<int, 3>> faces;  // counter-clockwise in `flat`
+  std::vector<bool> folded;               // per face: inside a dart or slit, where the wanted panel sets the width
+  std::vector<DartWedge> wedges;          // that the folded faces fill; pattern vertices
   std::vector<PanelSide> sides;           // of the panel
   std::vector<SideCurve> cloth_sides;     // in `flat`
   std::vector<SideCurve> wanted_sides;    // in `now`

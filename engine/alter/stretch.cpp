@@ -47,6 +47,12 @@ Mat2 fibre_projection(const Mat2& gradient, const Vec2& length) {
   return (Mat2() << c, -s, s, c).finished() / norm * shape;
 }
 
+// Cloth may shrink as the plain map has it and never grows; what is folded takes any width.
+Vec2 wanted_lengths(const Mat2& guide, bool folded) {
+  const Vec2 length = guide.colwise().norm().transpose();
+  return length.cwiseMin(folded ? 5.0 : 1.0).cwiseMax(0.2);
+}
+
 class Relaxation {
  public:
   explicit Relaxation(Sheet& sheet) : sheet_(sheet) {
@@ -59,7 +65,7 @@ class Relaxation {
       inverse_[f] = flat.inverse();
       area_[f] = 0.5 * flat.determinant();
       const Mat2 guide = edges_to(sheet, sheet.faces[f], &SheetVertex::guide) * inverse_[f];
-      length_[f] = guide.colwise().norm().transpose().cwiseMin(1.0).cwiseMax(0.2);
+      length_[f] = wanted_lengths(guide, sheet.folded[f]);
     }
     add_membrane();
   }
@@ -193,9 +199,10 @@ SheetStress measure_stress(const Sheet& sheet, double limit) {
   SheetStress stress;
   std::vector<std::pair<double, double>> tension;  // value, area
   for (std::size_t f = 0; f < sheet.faces.size(); ++f) {
+    if (sheet.folded[f]) continue;
     const double area = 0.5 * edges_to(sheet, sheet.faces[f], &SheetVertex::flat).determinant();
     const Mat2 now = sheet_gradient(sheet, f);
-    const Vec2 length = guide_gradient(sheet, f).colwise().norm().transpose().cwiseMin(1.0).cwiseMax(0.2);
+    const Vec2 length = wanted_lengths(guide_gradient(sheet, f), false);
     stress.energy += area * (now - fibre_projection(now, length)).squaredNorm();
     stress.area += area;
     tension.emplace_back(now.colwise().norm().maxCoeff() - 1.0, area);

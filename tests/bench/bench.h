@@ -44,6 +44,7 @@ int bench_inputs(const Arguments& arguments);
 int bench_derive(const Arguments& arguments);
 int bench_drape(const Arguments& arguments);
 int bench_view(const Arguments& arguments);
+int bench_alter(const Arguments& arguments);
 int bench_alteration(const Arguments& arguments);
 int bench_panels(const Arguments& arguments);
 int bench_pictures(const Arguments& arguments);

@@ -13,6 +13,10 @@ int main(int argc, char** argv) {
     int (*run)(const Arguments&);
   };
   const std::map<std::string, Entry> benches = {
+      {"alter",
+       {"alter shared garments for other bodies: [GARMENT:BODY...] [--triangles N] [--cache FOLDER] [--pictures "
+        "FOLDER]",
+        bench_alter}},
       {"alteration", {"draw an alteration: GARMENT.json ACROSS ALONG FOLDER", bench_alteration}},
       {"inputs", {"time against quality of reading and meshing what users hand in", bench_inputs}},
       {"derive", {"target patterns: fit and position before and after, over garments and bodies", bench_derive}},
