@@ -5,11 +5,13 @@
 #include <cmath>
 #include <map>
 
+#include "engine/stages/body_slices.h"
+
 namespace toile {
 namespace {
 
-constexpr double kLegStep = 0.02, kLegSlab = 0.01, kLegReach = 0.14, kSole = 0.03;  // m
-constexpr double kShoulderStep = 0.005, kShoulderLimit = 0.25;                      // m
+constexpr double kLegStep = 0.02, kLegReach = 0.14, kSole = 0.03;  // m
+constexpr double kShoulderStep = 0.005, kShoulderLimit = 0.25;     // m
 constexpr double kArmCut = 0.16;  // m below the shoulder joint along the arm: clear of the trunk on every body tried
 
 // Height at which a vertical line from inside the body leaves it.
@@ -31,23 +33,19 @@ Vec3 on_polyline_at_height(const std::vector<Vec3>& line, double y) {
 }
 
 // Middles of the boxes of the leg's slices, every 2 cm; the joint line where a slice is empty.
-std::vector<Vec3> leg_line(const Body& body, const Skeleton& skeleton, Side side) {
+std::vector<Vec3> leg_line(const BodySlices& slices, const Skeleton& skeleton, Side side) {
   const Skeleton::Leg& leg = skeleton.legs[side];
   const std::vector<Vec3> joints = {leg.hip, leg.knee, leg.ankle};
-  const double sign = side == Left ? 1 : -1;
   std::vector<Vec3> line;
   for (double y = skeleton.crotch_y; y > kSole; y -= kLegStep) {
     const Vec3 guess = on_polyline_at_height(joints, y);
-    Vec3 low = Vec3::Constant(1e9), high = -low;
-    for (Eigen::Index v = 0; v < body.surface.vertices.rows(); ++v) {
-      const Vec3 p = body.surface.vertices.row(v);
-      if (std::abs(p.y() - y) > kLegSlab || sign * p.x() < 0) continue;
-      if (std::hypot(p.x() - guess.x(), p.z() - guess.z()) > kLegReach) continue;
+    Vec2 low = Vec2::Constant(1e9), high = -low;  // x, z
+    for (const Vec2& p : slices.leg(y, side)) {
+      if ((p - Vec2(guess.x(), guess.z())).norm() > kLegReach) continue;
       low = low.cwiseMin(p), high = high.cwiseMax(p);
     }
-    Vec3 middle = low.x() <= high.x() ? Vec3(0.5 * (low + high)) : guess;
-    middle.y() = y;
-    line.push_back(middle);
+    const Vec2 middle = low.x() <= high.x() ? Vec2(0.5 * (low + high)) : Vec2(guess.x(), guess.z());
+    line.emplace_back(middle.x(), y, middle.y());
   }
   return line;
 }
@@ -81,6 +79,7 @@ Vec3 BodyGuides::arm_at(Side side, double along) const {
 
 BodyGuides find_body_guides(const Body& body, const SurfaceTree& surface) {
   const Skeleton& skeleton = *body.skeleton;
+  const BodySlices slices(body.surface, false);
   BodyGuides guides;
   guides.levels.armpit_y = skeleton.armpit_y;
   guides.levels.waist_y = skeleton.waist_y;
@@ -92,7 +91,7 @@ BodyGuides find_body_guides(const Body& body, const SurfaceTree& surface) {
     guides.arm_direction[side] =
         Vec3(arm.wrist.x() - arm.shoulder.x(), arm.wrist.y() - arm.shoulder.y(), 0).normalized();
     guides.arm[side] = arm_line(arm);
-    guides.leg[side] = leg_line(body, skeleton, side);
+    guides.leg[side] = leg_line(slices, skeleton, side);
   }
   return guides;
 }
