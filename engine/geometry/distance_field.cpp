@@ -8,10 +8,30 @@
 
 namespace toile {
 
+Mat3 SignedField::hessian(const Vec3& p) {
+  constexpr double kStep = 1e-6, kEverywhere = 1e6;  // m
+  Mat3 result;
+  for (int d = 0; d < 3; ++d) {
+    Vec3 ahead, behind;
+    evaluate(p + kStep * Vec3::Unit(d), kEverywhere, ahead);
+    evaluate(p - kStep * Vec3::Unit(d), kEverywhere, behind);
+    result.col(d) = (ahead - behind) / (2 * kStep);
+  }
+  return 0.5 * (result + result.transpose());
+}
+
 double CylinderField::evaluate(const Vec3& p, double, Vec3& gradient) {
   const double r = std::hypot(p.x(), p.z());
   gradient = r > 0 ? Vec3(p.x() / r, 0, p.z() / r) : Vec3(1, 0, 0);
   return r - radius_;
+}
+
+Mat3 CylinderField::hessian(const Vec3& p) {
+  Vec3 radial;
+  const double r = evaluate(p, 0, radial) + radius_;
+  if (!(r > 0)) return Mat3::Zero();
+  const Vec3 around(radial.z(), 0, -radial.x());
+  return around * around.transpose() / r;
 }
 
 double BellyField::evaluate(const Vec3& p, double, Vec3& gradient) {
@@ -125,6 +145,16 @@ struct SurfaceField::State {
   int computed = 0;
   int start = -1;  // triangle of the last query, to begin the next one with
 
+  bool has_cell(const Eigen::Vector3i& centre) const {
+    return (centre.array() >= 1).all() && (centre.array() <= nodes.array() - 2).all();
+  }
+
+  float lattice(int x, int y, int z) {
+    float& node = block(x / kBlock, y / kBlock, z / kBlock)[((z % kBlock) * kBlock + y % kBlock) * kBlock + x % kBlock];
+    if (std::isnan(node)) node = node_value(x, y, z);
+    return node;
+  }
+
   float* block(int bx, int by, int bz) {
     const std::size_t at =
         (static_cast<std::size_t>(bz) * static_cast<std::size_t>(blocks.y()) + static_cast<std::size_t>(by)) *
@@ -213,7 +243,7 @@ double SurfaceField::evaluate(const Vec3& p, double reach, Vec3& gradient) {
 
   const Vec3 q = (p - s.origin) * s.inverse_h;
   Eigen::Vector3i centre = q.array().round().cast<int>();
-  if ((centre.array() < 1).any() || (centre.array() > s.nodes.array() - 2).any()) {
+  if (!s.has_cell(centre)) {
     const SurfacePoint near = s.tree.closest_point(p);  // outside the lattice with a reach beyond its margin
     gradient = (p - near.point).normalized();
     return near.distance();
@@ -248,6 +278,33 @@ double SurfaceField::evaluate(const Vec3& p, double reach, Vec3& gradient) {
   }
   gradient = slope * s.inverse_h;
   return value;
+}
+
+Mat3 SurfaceField::hessian(const Vec3& p) {
+  State& s = *state_;
+  const Vec3 q = (p - s.origin) * s.inverse_h;
+  const Eigen::Vector3i centre = q.array().round().cast<int>();
+  if (!s.has_cell(centre)) return SignedField::hessian(p);
+  std::array<Vec3, 3> w[3];  // along each axis, of each node: B-spline weight, its first and second derivative
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double t = q[static_cast<int>(d)] - centre[static_cast<int>(d)];
+    w[d] = {Vec3(0.5 * (0.5 - t) * (0.5 - t), t - 0.5, 1), Vec3(0.75 - t * t, -2 * t, -2),
+            Vec3(0.5 * (0.5 + t) * (0.5 + t), t + 0.5, 1)};
+  }
+  Mat3 bend = Mat3::Zero();
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto offset = Eigen::Vector3i(static_cast<int>(i), static_cast<int>(j), static_cast<int>(k));
+        const Eigen::Vector3i at = centre + offset - Eigen::Vector3i::Ones();
+        const Vec3 &x = w[0][i], &y = w[1][j], &z = w[2][k];
+        Mat3 second;
+        second << x[2] * y[0] * z[0], x[1] * y[1] * z[0], x[1] * y[0] * z[1],  //
+            x[1] * y[1] * z[0], x[0] * y[2] * z[0], x[0] * y[1] * z[1],        //
+            x[1] * y[0] * z[1], x[0] * y[1] * z[1], x[0] * y[0] * z[2];
+        bend += static_cast<double>(s.lattice(at.x(), at.y(), at.z())) * second;
+      }
+  return bend * s.inverse_h * s.inverse_h;
 }
 
 }  // namespace toile

@@ -18,6 +18,10 @@ class SignedField {
   // Signed distance and its gradient at p. Where the distance is beyond `reach`, any value in between may be returned
   // (a lower bound > reach), with an undefined gradient.
   virtual double evaluate(const Vec3& p, double reach, Vec3& gradient) = 0;
+
+  // Second derivatives at p, 1/m, where evaluate() gives the distance itself. Here by central differences of the
+  // gradient, good to about 1e-6 of their size.
+  virtual Mat3 hessian(const Vec3& p);
 };
 
 // Exact field of an endless upright cylinder about the y axis.
@@ -25,6 +29,7 @@ class CylinderField : public SignedField {
  public:
   explicit CylinderField(double radius) : radius_(radius) {}
   double evaluate(const Vec3& p, double reach, Vec3& gradient) override;
+  Mat3 hessian(const Vec3& p) override;
 
  private:
   double radius_;
@@ -57,6 +62,7 @@ class SurfaceField : public SignedField {
   ~SurfaceField() override;
 
   double evaluate(const Vec3& p, double reach, Vec3& gradient) override;
+  Mat3 hessian(const Vec3& p) override;  // of the spline: exact, and constant along each axis within a cell
 
   int lattice_nodes_computed() const;
   const SurfaceTree& tree() const;

@@ -68,6 +68,21 @@ double Contact::energy_gradient(const Points3& nodes, Points3& gradient) {
   return energy;
 }
 
+void Contact::add_hessian(const Points3& nodes, Curvature curvature, BlockHessian& hessian) {
+  for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
+    const Vec3 p = nodes.row(i);
+    const auto node = static_cast<int>(i);
+    Vec3 normal;
+    if (near(i, p, normal))
+      hessian.add(node, node,
+                  contact_hessian(options_.stiffness * cloth_.node_area[i], depth(i), options_.linear_beyond, normal,
+                                  field_.hessian(p), curvature));
+    if (!frozen_ || load_[i] <= 0) continue;
+    const Vec3 n = normal_.row(i), moved = p - anchor_.row(i).transpose();
+    hessian.add(node, node, friction_hessian(load_[i], options_.slip_length, moved - n * n.dot(moved), n));
+  }
+}
+
 void Contact::freeze_friction(const Points3& nodes) {
   freeze_friction(nodes, Points3::Zero(nodes.rows(), 3), 0.0);
 }

@@ -10,6 +10,7 @@
 
 #include "engine/geometry/distance_field.h"
 #include "engine/sim/cloth.h"
+#include "engine/sim/energy_hessian.h"
 
 namespace toile {
 
@@ -35,6 +36,9 @@ class Contact {
 
   // Adds the gradient (#N x 3, N) and returns the energy, J.
   double energy_gradient(const Points3& nodes, Points3& gradient);
+
+  // Adds the second derivatives at `nodes`, of contact and of friction as it is frozen.
+  void add_hessian(const Points3& nodes, Curvature curvature, BlockHessian& hessian);
 
   // Takes up the contact forces at `nodes` and drags anchors that are further away than the slip length; nodes newly in
   // contact are anchored where they are.

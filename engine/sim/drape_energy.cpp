@@ -19,6 +19,17 @@ double DrapeEnergy::evaluate(const Points3& nodes, Points3& gradient) {
   return energy;
 }
 
+void DrapeEnergy::evaluate_hessian(const Points3& nodes, Curvature curvature, BlockHessian& hessian) {
+  hessian.set_zero();
+  add_membrane_hessian(cloth_, nodes, curvature, hessian);
+  add_bending_hessian(cloth_, hessian);
+  for (const Hold& hold : holds)
+    if (nodes(hold.node, 1) < hold.height)
+      hessian.add(hold.node, hold.node, Vec3(0, hold.stiffness, 0).asDiagonal().toDenseMatrix());
+  for (const Pin& pin : pins) hessian.add(pin.node, pin.node, pin.stiffness * Mat3::Identity());
+  if (contact_) contact_->add_hessian(nodes, curvature, hessian);
+}
+
 double DrapeEnergy::residual(const Points3& gradient) const {
   return std::sqrt(gradient.squaredNorm() / static_cast<double>(gradient.rows())) / cloth_.mean_node_weight();
 }

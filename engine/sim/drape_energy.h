@@ -31,6 +31,9 @@ class DrapeEnergy {
   // Energy at `nodes` (#N x 3); `gradient` is overwritten, N.
   double evaluate(const Points3& nodes, Points3& gradient);
 
+  // Second derivatives at `nodes`, friction as it is frozen; `hessian` is overwritten.
+  void evaluate_hessian(const Points3& nodes, Curvature curvature, BlockHessian& hessian);
+
   // Root of the mean squared nodal gradient over the mean node weight: dimensionless, 0 at rest.
   double residual(const Points3& gradient) const;
 

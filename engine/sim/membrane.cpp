@@ -4,10 +4,6 @@
 namespace toile {
 namespace {
 
-// Added to det(F^T F): keeps the rotation of a collapsed triangle defined.
-constexpr double kCollapse = 1e-10;
-constexpr double kLeastLengthSquared = 1e-24;
-
 struct Vector3Lanes {
   Lanes x, y, z;
 };
@@ -44,8 +40,8 @@ void scatter(const TriangleBlock& block, std::size_t k, const Vector3Lanes& forc
 Lanes stress(const Fabric& fabric, Vector3Lanes& fu, Vector3Lanes& fv) {
   const double ku = fabric.weft_stiffness, kv = fabric.warp_stiffness, ks = fabric.shear_stiffness;
   const Lanes uu = dot(fu, fu), vv = dot(fv, fv), uv = dot(fu, fv);
-  const Lanes lu = (uu + kLeastLengthSquared).sqrt(), lv = (vv + kLeastLengthSquared).sqrt();
-  const Lanes d = ((uu * vv - uv * uv).max(0.0) + kCollapse).sqrt();
+  const Lanes lu = (uu + kMembraneLeastLengthSquared).sqrt(), lv = (vv + kMembraneLeastLengthSquared).sqrt();
+  const Lanes d = ((uu * vv - uv * uv).max(0.0) + kMembraneCollapse).sqrt();
   const Lanes trace = (uu + vv + 2 * d).sqrt();  // of the stretch tensor of the polar decomposition
   const Lanes s = ks / trace, cross = s * uv / d;
   const Lanes pu = ku * (1 - 1 / lu) + ks - s * (1 + vv / d), pv = kv * (1 - 1 / lv) + ks - s * (1 + uu / d);

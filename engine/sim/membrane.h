@@ -9,6 +9,11 @@
 
 namespace toile {
 
+// Added to det(F^T F), dimensionless: keeps the rotation of a collapsed triangle defined.
+inline constexpr double kMembraneCollapse = 1e-10;
+// Added to |Fu|^2 and |Fv|^2, dimensionless: keeps the direction of a vanished fibre finite.
+inline constexpr double kMembraneLeastLengthSquared = 1e-24;
+
 // Adds the gradient to `gradient` (#N x 3, N) and returns the energy.
 double membrane_energy_gradient(const Cloth& cloth, const Points3& nodes, Points3& gradient);
 

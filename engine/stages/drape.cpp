@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "engine/core/units.h"
+#include "engine/sim/newton.h"
 #include "engine/sim/position_based.h"
 #include "engine/sim/relax.h"
 #include "engine/sim/sewing.h"
@@ -35,7 +36,6 @@ void check_options(const DrapeOptions& o) {
   check(o.stop_residual > 0, "stop_residual", "positive");
   check(o.fibre_slack >= 0 && o.fibre_slack <= 0.2, "fibre_slack", "0 to 0.2");
   check(o.shear_limit_deg >= 0 && o.shear_limit_deg <= 45, "shear_limit_deg", "0 to 45");
-  check(o.solver != SolverKind::Newton, "solver", "default or pbd");
   check(o.lift >= 0 && o.lift <= 0.1, "lift", "0 to 0.1 m");
   check(o.first_rung >= 0 && o.first_rung <= kLastRung, "first_rung", "0 to 2");
 }
@@ -157,6 +157,7 @@ class Draper {
     DrapeEnergy energy(cloth_, &contact, options_.gravity);
     energy.holds = holds_;
     if (options_.solver == SolverKind::Pbd) return average_targets(energy, start);
+    if (options_.solver == SolverKind::Newton && options_.friction == 0) return refine(energy, start);
     RelaxOptions relax_options;
     relax_options.iterations = options_.iterations;
     relax_options.stop_residual = options_.stop_residual;
@@ -171,6 +172,22 @@ class Draper {
     result_.quality.residual = relaxed.residual;
     result_.quality.settling_move = relaxed.last_move;
     result_.quality.rest = relaxed.converged ? Rest::Converged : relaxed.settled ? Rest::Settled : Rest::NotAtRest;
+    if (options_.solver == SolverKind::Newton) refine(energy, relaxed.nodes);
+  }
+
+  // To the very minimum, contacts and friction as they stand in `energy`.
+  void refine(DrapeEnergy& energy, const Points3& start) {
+    NewtonOptions options;
+    options.stop_residual = options_.newton_residual;
+    const NewtonResult refined = newton(energy, start, options, progress_);
+    result_.drape.nodes = refined.nodes;
+    DrapeDiagnostics& d = result_.diagnostics;
+    d.iterations += refined.iterations;
+    d.evaluations += refined.evaluations;
+    d.energy = refined.energy;
+    d.stalled = refined.stalled;
+    result_.quality.residual = refined.residual;
+    if (refined.residual < options_.stop_residual) result_.quality.rest = Rest::Converged;
   }
 
   void average_targets(DrapeEnergy& energy, const Points3& start) {

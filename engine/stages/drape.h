@@ -24,7 +24,10 @@ struct DrapeOptions {
   double lift = 0.015;             // m the torso is arranged above the height at which it clears the shoulders, 0..0.1
   std::optional<BodyLevels> drafted_for;    // levels of the body the pattern's placement belongs to; empty: this body
   bool keep_drape = false;                  // take a given start as the drape, without moving it (drape_from only)
-  SolverKind solver = SolverKind::Default;  // Pbd: the paper's averaging instead of the equilibrium solver
+  // Pbd: the paper's averaging instead of the equilibrium solver. Newton: the exact minimum, from the default's end with
+  // its contacts and friction anchors held; without friction from the default's start.
+  SolverKind solver = SolverKind::Default;
+  double newton_residual = 1e-6;  // at which Newton stops, in mean node weights, > 0
   double fibre_slack = 0.0;                 // delta of the position-based solver, 0..0.2
   double shear_limit_deg = 12.0;            // rho of the position-based solver, 0..45
   int first_rung = 0;  // of the retry ladder to begin with, 0..2: as designed, higher and firmer, grown from inside

@@ -48,6 +48,7 @@ int bench_alter(const Arguments& arguments);
 int bench_alteration(const Arguments& arguments);
 int bench_panels(const Arguments& arguments);
 int bench_pictures(const Arguments& arguments);
+int bench_oracle(const Arguments& arguments);
 int bench_register(const Arguments& arguments);
 
 }  // namespace toile::bench

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
       {"derive", {"target patterns: fit and position before and after, over garments and bodies", bench_derive}},
       {"drape",
        {"sew and drape: [GARMENT...] [growth] [--triangles N] [--body NAME] [--pictures FOLDER]", bench_drape}},
+      {"oracle", {"default against Newton: [GARMENT...] [--triangles N] [--frictionless]", bench_oracle}},
       {"panels", {"draw a flat pattern: GARMENT.json OUT.png|OUT.svg", bench_panels}},
       {"pictures", {"all a job shows of a drape: GARMENT.json BODY.obj FOLDER", bench_pictures}},
       {"register", {"body maps: time against error over pairs and resolutions, growth", bench_register}},

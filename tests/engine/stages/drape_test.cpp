@@ -43,8 +43,19 @@ TEST(Drape, PaperSolverKeepsTheTightTubeOnTheBody) {
   const DrapeResult result = drape(t.pattern, t.mesh, t.body, options, nullptr);
   EXPECT_EQ(result.quality.nodes_inside, 0);
   EXPECT_GT(result.quality.weft.p50, 0.04);
+}
+
+TEST(Drape, NewtonGoesOnFromTheDefaultsEndToTheMinimum) {
+  const TightTube t;
+  DrapeOptions options;
+  const DrapeResult usual = drape(t.pattern, t.mesh, t.body, options, nullptr);
   options.solver = SolverKind::Newton;
-  EXPECT_THROW(drape(t.pattern, t.mesh, t.body, options, nullptr), Error);
+  const DrapeResult exact = drape(t.pattern, t.mesh, t.body, options, nullptr);
+  EXPECT_GT(usual.quality.residual, 1e-3);
+  EXPECT_LT(exact.quality.residual, options.newton_residual);
+  EXPECT_LT(exact.diagnostics.energy, usual.diagnostics.energy);
+  EXPECT_GT(exact.diagnostics.iterations, usual.diagnostics.iterations);
+  EXPECT_LT((exact.drape.nodes - usual.drape.nodes).rowwise().norm().maxCoeff(), 0.005);
 }
 
 TEST(Drape, GivenStartIsKeptWhenAsked) {

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// oracle [GARMENT...] [--triangles N] [--frictionless] [--residual R]: the default drape against Newton's, which goes
+// on from the default's end with its contacts and friction anchors (without friction: from the same start) to a
+// residual six orders below. Distances of nodes, heights of hems and the fitting map, beside CPU time.
+#include <cmath>
+#include <cstdio>
+
+#include "engine/core/error.h"
+#include "engine/stages/build_fitting_map.h"
+#include "tests/bench/bench.h"
+#include "tests/support/dressed.h"
+#include "tests/support/shared_data.h"
+
+namespace toile::bench {
+namespace {
+
+struct Request {
+  std::vector<std::string> garments;
+  int triangles = 10000;
+  double residual = 1e-3;
+  bool frictionless = false;
+};
+
+Request parse(const std::vector<std::string>& words) {
+  Request request;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool more = i + 1 < words.size();
+    if (words[i] == "--triangles" && more)
+      request.triangles = std::atoi(words[++i].c_str());
+    else if (words[i] == "--residual" && more)
+      request.residual = std::atof(words[++i].c_str());
+    else if (words[i] == "--frictionless")
+      request.frictionless = true;
+    else
+      request.garments.push_back(words[i]);
+  }
+  if (request.garments.empty())
+    request.garments = {"dress_sleeveless", "tshirt_fitted", "leggings_tight", "skirt_pencil", "pants_straight"};
+  return request;
+}
+
+void run_one(const Request& request, const std::string& name, Table& table) {
+  test::Dressing d = test::dress(name, request.triangles);
+  if (request.frictionless) d.options.friction = 0;
+  const double start = cpu_seconds();
+  const DrapeResult usual = drape(d.pattern, d.mesh, d.body, d.options, nullptr);
+  const double usual_took = cpu_seconds() - start;
+  d.options.solver = SolverKind::Newton;
+  d.options.newton_residual = request.residual;
+  const DrapeResult exact = drape(d.pattern, d.mesh, d.body, d.options, nullptr);
+  const double exact_took = cpu_seconds() - start - usual_took;
+  const Points3 off = usual.drape.nodes - exact.drape.nodes;
+  const FittingMap a = build_fitting_map(d.mesh, usual.drape), b = build_fitting_map(d.mesh, exact.drape);
+  const double squares =
+      ((a.stretch_weft - b.stretch_weft).array().square() + (a.stretch_warp - b.stretch_warp).array().square())
+          .matrix()
+          .dot(a.rest_area) /
+      (2 * a.rest_area.sum());
+  table.add({name, std::to_string(d.mesh.triangle_count()), fixed(usual_took, 2), fixed(exact_took, 2),
+             fixed(usual.quality.residual, 3), fixed(1e6 * exact.quality.residual, 2) + "e-6",
+             std::to_string(usual.diagnostics.iterations),
+             std::to_string(exact.diagnostics.iterations - usual.diagnostics.iterations),
+             fixed(1e3 * std::sqrt(off.rowwise().squaredNorm().mean()), 2),
+             fixed(1e3 * std::sqrt(off.rowwise().squaredNorm().maxCoeff()), 1),
+             fixed(1e3 * std::abs(usual.drape.nodes.col(1).minCoeff() - exact.drape.nodes.col(1).minCoeff()), 2),
+             fixed(100 * std::sqrt(squares), 3), fixed(usual.diagnostics.energy - exact.diagnostics.energy, 6)});
+}
+
+}  // namespace
+
+int bench_oracle(const Arguments& arguments) {
+  if (!test::has_shared_data()) {
+    std::fprintf(stderr, "toile-bench oracle needs ../shared/data\n");
+    return 2;
+  }
+  const Request request = parse(arguments.words);
+  Table table({"garment", "triangles", "default CPU s", "Newton CPU s", "default residual", "Newton residual",
+               "default it", "Newton it", "rms mm", "most mm", "hem mm", "stretch rms %", "energy J above"});
+  for (const std::string& name : request.garments) run_one(request, name, table);
+  table.print(arguments.csv);
+  return 0;
+}
+
+}  // namespace toile::bench
