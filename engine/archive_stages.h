@@ -6,6 +6,7 @@
 #include "engine/alter/alter_pattern.h"
 #include "engine/core/archive_values.h"
 #include "engine/derive_in_loop.h"
+#include "engine/drape_altered.h"
 #include "engine/stages/derive_pattern.h"
 #include "engine/stages/drape.h"
 #include "engine/stages/fit_pattern_edges.h"
@@ -84,6 +85,17 @@ template <class A>
 void archive(A& a, DerivedPattern& v) {
   auto& [mesh, drape, fit, rms_stretch_error, pass_errors, derivation] = v;
   a(mesh, drape, fit, rms_stretch_error, pass_errors, derivation);
+}
+
+template <class A>
+void archive(A& a, PositionDifference& v) {
+  auto& [rms, p95, largest, worst_node] = v;
+  a(rms, p95, largest, worst_node);
+}
+template <class A>
+void archive(A& a, DrapedAlteration& v) {
+  auto& [problem, mesh, drape, fit, reference, position] = v;
+  a(problem, mesh, drape, fit, reference, position);
 }
 
 template <class A>
@@ -168,11 +180,31 @@ void archive(A& a, PanelAlteration& v) {
   a(panel, original, target, kept, cut_lines, kept_in_target, insertions, removals, insertion_pass, removal_pass);
 }
 template <class A>
+void archive(A& a, PieceMap& v) {
+  auto& [rest, target, triangles] = v;
+  a(rest, target, triangles);
+}
+template <class A>
+void archive(A& a, SewnPiece& v) {
+  auto& [panel, insertion, recut, strain, turned_over, map] = v;
+  a(panel, insertion, recut, strain, turned_over, map);
+}
+template <class A>
+void archive(A& a, SewnSeam& v) {
+  auto& [added, length_a, length_b] = v;
+  a(added, length_a, length_b);
+}
+template <class A>
+void archive(A& a, SewnPattern& v) {
+  auto& [pattern, pieces, seams, flags] = v;
+  a(pattern, pieces, seams, flags);
+}
+template <class A>
 void archive(A& a, AlterPatternResult& v) {
   auto& [panels, ticket, original_area, target_area, inserted_area, removed_area, area_imbalance, insertion_rounds,
-         removal_rounds, trials, reverted, dropped_regions, flags] = v;
+         removal_rounds, trials, reverted, dropped_regions, sewn, flags] = v;
   a(panels, ticket, original_area, target_area, inserted_area, removed_area, area_imbalance, insertion_rounds,
-    removal_rounds, trials, reverted, dropped_regions, flags);
+    removal_rounds, trials, reverted, dropped_regions, sewn, flags);
 }
 
 }  // namespace toile

@@ -7,6 +7,7 @@
 #include <functional>
 #include <iterator>
 
+#include "engine/altered_pattern_record.h"
 #include "engine/core/content_hash.h"
 #include "engine/core/text.h"
 #include "engine/draw_alteration.h"
@@ -130,30 +131,44 @@ std::string percent(double share) {
   return io::number(100.0 * share, 1);
 }
 
-io::HtmlTable zone_table(const FitComparison& before, const FitComparison& ideal) {
+// Fits of a job against its reference; `after` is the altered garment's, where it was draped.
+struct Fits {
+  FitComparison before, ideal;
+  std::optional<FitComparison> after;
+};
+
+io::HtmlTable zone_table(const Fits& fits) {
   io::HtmlTable table{"Stretch that differs from the reference fit, in percent",
                       {"zone", "before, weft", "before, warp", "target pattern, weft", "target pattern, warp"},
                       {}};
-  const auto add = [&table](std::string_view zone, const FitDifference& b, const FitDifference& i) {
-    table.rows.push_back(
-        {std::string(zone), percent(b.mean_weft), percent(b.mean_warp), percent(i.mean_weft), percent(i.mean_warp)});
+  if (fits.after) table.columns.insert(table.columns.end(), {"altered, weft", "altered, warp"});
+  const auto add = [&](std::string_view zone, const auto& difference) {
+    std::vector<std::string> row = {std::string(zone)};
+    for (const FitComparison* fit : {&fits.before, &fits.ideal, fits.after ? &*fits.after : nullptr}) {
+      if (!fit) continue;
+      row.push_back(percent(difference(*fit).mean_weft));
+      row.push_back(percent(difference(*fit).mean_warp));
+    }
+    table.rows.push_back(std::move(row));
   };
-  add("whole garment", before.whole, ideal.whole);
-  for (std::size_t z = 0; z < before.zones.size(); ++z)
-    if (before.zones[z].area > 0.0 && static_cast<BodyZone>(z) != BodyZone::Whole)
-      add(zone_name(static_cast<BodyZone>(z)), before.zones[z], ideal.zones[z]);
+  add("whole garment", [](const FitComparison& fit) { return fit.whole; });
+  for (std::size_t z = 0; z < fits.before.zones.size(); ++z)
+    if (fits.before.zones[z].area > 0.0 && static_cast<BodyZone>(z) != BodyZone::Whole)
+      add(zone_name(static_cast<BodyZone>(z)), [z](const FitComparison& fit) { return fit.zones[z]; });
   return table;
 }
 
-std::vector<std::string> summary_of(const Ticket& ticket, const FitComparison& before, const FitComparison& ideal) {
+std::vector<std::string> summary_of(const Ticket& ticket, const Fits& fits) {
   const std::size_t count = ticket.operations.size();
   const auto adds = static_cast<std::size_t>(
       std::count_if(ticket.operations.begin(), ticket.operations.end(),
                     [](const TicketOperation& o) { return o.fabric == FabricNeed::NeedsFabric; }));
+  const auto rms = [](const FitComparison& fit) { return percent(fit.whole.rms_stretch) + " %"; };
+  std::string fit = "Stretch differs from the reference fit by " + rms(fits.before) + " before alteration, ";
+  if (fits.after) fit += "by " + rms(*fits.after) + " after it, ";
+  fit += "by " + rms(fits.ideal) + " with the ideal pattern (root mean square).";
   return {print_text("%zu %s, %zu of them with new fabric.", count, count == 1 ? "operation" : "operations", adds),
-          print_text("Stretch differs from the reference fit by %s %% before and by %s %% with the target pattern "
-                     "(root mean square).",
-                     percent(before.whole.rms_stretch).c_str(), percent(ideal.whole.rms_stretch).c_str())};
+          std::move(fit)};
 }
 
 }  // namespace
@@ -188,9 +203,16 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
   const Drawing drawing = draw_alteration(pattern, r.altered);
   const Ticket ticket = named_ticket(r, info);
   const std::vector<BodyZone> zones = body_zones(pattern, mesh, r.reference.drape.drape, r.reference.body);
-  const FitComparison before = compare_fits(mesh, r.reference.fit, r.fit_before, {}, zones);
-  const FitComparison ideal = compare_fits(mesh, r.reference.fit, r.derived.fit, {}, zones);
-  const Box frame = frame_of({&r.reference.drape.drape, &r.before.drape, &r.derived.drape.drape});
+  const bool worn_after = r.after && r.after->problem.empty();
+  Fits fits{compare_fits(mesh, r.reference.fit, r.fit_before, {}, zones),
+            compare_fits(mesh, r.reference.fit, r.derived.fit, {}, zones),
+            {}};
+  if (worn_after)
+    fits.after = compare_fits(r.after->mesh, r.after->reference, r.after->fit, {},
+                              body_zones(r.altered.sewn.pattern, r.after->mesh, r.after->drape.drape, r.target_body));
+  std::vector<const Drape*> compared = {&r.reference.drape.drape, &r.before.drape, &r.derived.drape.drape};
+  if (worn_after) compared.push_back(&r.after->drape.drape);
+  const Box frame = frame_of(compared);
   // Marks say how much tighter or looser the garment sits than on the reference body.
   const auto picture = [&](const Body& body, const DrapeResult& drape, const FittingMap& fit, const char* title) {
     ViewOptions views = views_of(title);
@@ -200,6 +222,10 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
   };
 
   Outputs outputs(options);
+  if (!r.altered.sewn.pieces.empty())
+    outputs.make("altered_pattern.json", kJson, [&] {
+      return bytes_of(io::write_altered_pattern(r.altered.sewn.pattern, altered_pattern_record(r.altered)));
+    });
   outputs.make("altered_pattern.svg", kSvg, [&] { return io::write_svg(drawing); });
   outputs.make("altered_pattern.dxf", "image/vnd.dxf", [&] { return io::write_dxf(drawing); });
   for (const auto& [name, sheet] : kPrints)
@@ -213,6 +239,9 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
   outputs.make("reference_drape.obj", kObj,
                [&] { return io::write_drape_obj(pattern, mesh, r.reference.drape.drape); });
   outputs.make("target_before.obj", kObj, [&] { return io::write_drape_obj(pattern, mesh, r.before.drape); });
+  if (worn_after)
+    outputs.make("target_after.obj", kObj,
+                 [&] { return io::write_drape_obj(r.altered.sewn.pattern, r.after->mesh, r.after->drape.drape); });
   const Bytes* fit_reference = outputs.make("fit_reference.png", kPng, [&] {
     return picture(r.reference.body, r.reference.drape, r.reference.fit, "reference");
   });
@@ -220,16 +249,23 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
       outputs.make("fit_before.png", kPng, [&] { return picture(r.target_body, r.before, r.fit_before, "before"); });
   const Bytes* fit_target = outputs.make(
       "fit_target.png", kPng, [&] { return picture(r.target_body, r.derived.drape, r.derived.fit, "target pattern"); });
+  const Bytes* fit_after = !worn_after ? nullptr : outputs.make("fit_after.png", kPng, [&] {
+    ViewOptions views = views_of("after");
+    views.frame = frame;
+    views.reference = &r.after->reference;
+    return render_views(&r.target_body.surface, &r.after->mesh, &r.after->drape.drape, &r.after->fit, views);
+  });
   outputs.make("report.html", kHtml, [&] {
     io::Report report;
     report.title = pattern.name;
     report.subtitle = "from " + ticket.reference_body + " to " + ticket.target_body;
     if (fit_reference) report.fits.push_back({*fit_reference, "On the reference body"});
     if (fit_before) report.fits.push_back({*fit_before, "On the target body, before alteration"});
+    if (fit_after) report.fits.push_back({*fit_after, "On the target body, after alteration"});
     if (fit_target) report.fits.push_back({*fit_target, "On the target body, cut by the target pattern"});
     if (pattern_png) report.pictures.push_back({*pattern_png, "Numbers with + are insertions, with - removals"});
-    report.summary = summary_of(ticket, before, ideal);
-    report.zones = {zone_table(before, ideal)};
+    report.summary = summary_of(ticket, fits);
+    report.zones = {zone_table(fits)};
     report.ticket = &ticket;
     report.pattern_svg = io::write_svg(drawing, kInlined);
     report.quality = quality_record(r.before.quality);
@@ -238,14 +274,16 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
     return io::write_report_html(report);
   });
 
-  Record fits;
-  fits.add("before", fit_record(pattern, before)).add("ideal", fit_record(pattern, ideal));
+  Record compared_fits;
+  compared_fits.add("before", fit_record(pattern, fits.before)).add("ideal", fit_record(pattern, fits.ideal));
+  if (fits.after) compared_fits.add("after", fit_record(r.altered.sewn.pattern, *fits.after));
   Record quality;
   quality.add("reference_drape", quality_record(r.reference.drape.quality))
       .add("target_drape_before", quality_record(r.before.quality))
       .add("target_pattern_drape", quality_record(r.derived.drape.quality))
       .add("area_imbalance", r.altered.area_imbalance)
       .add("flags", Record::Value(r.altered.flags));
+  if (worn_after) quality.add("target_drape_after", quality_record(r.after->drape.quality));
   Record stages;
   stages.add("reference_drape", drape_record(r.reference.drape))
       .add("register_bodies", r.registration.diagnostics)
@@ -254,12 +292,13 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
       .add("derive_pattern", derivation_record(r.derived))
       .add("fit_pattern_edges", edges_record(r.target_pattern))
       .add("alter_pattern", alteration_record(r.altered));
+  if (r.after) stages.add("drape_altered", after_record(*r.after));
   Record bodies;
   bodies.add("reference", describe_body(r.reference.body)).add("target", describe_body(r.target_body));
   Record result = head_record("alter", options, info);
   result.add("quality", std::move(quality))
       .add("alterations", *io::ticket_record(ticket).find("operations"))
-      .add("fits", std::move(fits))
+      .add("fits", std::move(compared_fits))
       .add("stages", std::move(stages))
       .add("bodies", std::move(bodies));
   return outputs.finish(std::move(result));

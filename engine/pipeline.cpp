@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/pipeline.h"
 
+#include <algorithm>
+
 #include "engine/archive_stages.h"
 #include "engine/stage_options.h"
 
@@ -27,6 +29,13 @@ Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput&
           worn.key};
 }
 
+bool wants_after(const AlterOptions& options) {
+  constexpr std::array<std::string_view, 4> kShowing = {"all", "target_after.obj", "fit_after.png", "report.html"};
+  return std::any_of(kShowing.begin(), kShowing.end(), [&](std::string_view name) {
+    return std::find(options.outputs.begin(), options.outputs.end(), name) != options.outputs.end();
+  });
+}
+
 Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInput& reference_body,
                                      const BodyInput& target_body, const AlterOptions& options, StageRunner& runner) {
   const DrapeOptions drape_options = drape_options_of(options);
@@ -50,7 +59,6 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   });
   const auto drawn = runner.run("fit_pattern_edges", 1, derived.key,
                                 [&] { return fit_pattern_edges(pattern, mesh, derived.value.mesh.rest); });
-
   FittingMap fit_before = build_fitting_map(mesh, before.value.drape);
   return {{std::move(reference.value), target.value, registered.value, transported.value, before.value,
            std::move(fit_before), derived.value, drawn.value},
@@ -62,10 +70,19 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
   const AlterPatternOptions alter_options = alter_options_of(options);
   auto ideal = derive_garment(garment, reference_body, target_body, options, runner);
   const auto& [pattern, mesh, wearer, worn, fit] = ideal.value.reference;
-  const auto altered = runner.run("alter_pattern", 2, key_of(ideal.key, alter_options), [&] {
+  const auto altered = runner.run("alter_pattern", 3, key_of(ideal.key, alter_options), [&] {
     return alter_pattern(pattern, mesh, ideal.value.derived.mesh.rest, alter_options, runner.progress());
   });
-  return {std::move(ideal.value), altered.value};
+  if (!wants_after(options)) {
+    runner.skip("drape_altered");
+    return {std::move(ideal.value), altered.value, {}};
+  }
+  const DrapeOptions drape_options = drape_options_of(options);
+  const auto after = runner.run("drape_altered", 1, key_of(altered.key, ideal.key, drape_options), [&] {
+    return drape_altered(altered.value.sewn, mesh, fit, ideal.value.derived, ideal.value.target_body, drape_options,
+                         runner.progress());
+  });
+  return {std::move(ideal.value), altered.value, after.value};
 }
 
 }  // namespace toile

@@ -9,6 +9,7 @@
 #include "engine/alter/alter_pattern.h"
 #include "engine/core/options.h"
 #include "engine/derive_in_loop.h"
+#include "engine/drape_altered.h"
 #include "engine/pipeline_inputs.h"
 #include "engine/stage_runner.h"
 #include "engine/stages/build_fitting_map.h"
@@ -42,11 +43,16 @@ struct DerivedGarment {
 };
 
 struct AlterResult : DerivedGarment {
-  AlterPatternResult altered;  // how the original cloth becomes the ideal pattern
+  AlterPatternResult altered;             // how the original cloth becomes the ideal pattern
+  std::optional<DrapedAlteration> after;  // the altered garment on the target body, when an output needs it
 };
 
 // How many stages a runner of each goes through, for its share of the progress.
-inline constexpr int kDrapeStages = 4, kDeriveStages = 10, kAlterStages = 11;
+inline constexpr int kDrapeStages = 4, kDeriveStages = 10, kAlterStages = 12;
+
+// Whether an output that is asked for shows the altered garment on the target body.
+bool wants_after(const AlterOptions& options);
+
 
 // All throw what their stages throw.
 Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput& body, const AlterOptions& options,

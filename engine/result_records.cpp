@@ -54,7 +54,8 @@ Record drape_record(const DrapeResult& result) {
       .add("rung", d.rung);
   std::vector<Record> findings;
   for (const DrapeFinding& finding : d.findings)
-    findings.push_back(Record().add("name", finding.name).add("message", finding.message).add("refused", finding.refused));
+    findings.push_back(
+        Record().add("name", finding.name).add("message", finding.message).add("refused", finding.refused));
   record.add("findings", std::move(findings));
   return record;
 }
@@ -127,8 +128,21 @@ Record alteration_record(const AlterPatternResult& altered) {
       .add("reverted_tears", altered.reverted)
       .add("dropped_regions", altered.dropped_regions)
       .add("flags", Record::Value(altered.flags))
+      .add("sewing_flags", Record::Value(altered.sewn.flags))
       .add("panels", std::move(panels));
   return record;
+}
+
+Record after_record(const DrapedAlteration& after) {
+  Record record;
+  record.add("problem", after.problem);
+  if (!after.problem.empty()) return record;
+  return record.add("triangles", after.mesh.triangle_count())
+      .add("moved_from_target_drape_mm", Record()
+                                             .add("rms", after.position.rms * kMmPerMetre)
+                                             .add("p95", after.position.p95 * kMmPerMetre)
+                                             .add("largest", after.position.largest * kMmPerMetre))
+      .add("drape", drape_record(after.drape));
 }
 
 Record edges_record(const FitPatternEdgesResult& edges) {

@@ -76,6 +76,13 @@ class StageRunner {
     return result;
   }
 
+  // Counts a stage as done that nothing needs.
+  void skip(std::string_view stage) {
+    stage_ = stage;
+    ++stages_done_;
+    report(&stage_progress_, stage, 0.0);
+  }
+
   const std::vector<StageTiming>& timings() const { return timings_; }
 
  private:

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/alter/read_operations.h"
+#include "engine/alter/sew_altered.h"
 
 namespace toile {
 namespace {
@@ -160,6 +161,7 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
   }
   sum_up(result);
   read_operations(pattern, mesh, inserting, removing, options, result);
+  result.sewn = sew_altered(pattern, mesh, target_rest, inserting, removing, result);
   return result;
 }
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "engine/alter/recut.h"
+#include "engine/alter/sewn_pattern.h"
 #include "engine/alter/tear_pattern.h"
 #include "engine/core/ticket.h"
 
@@ -58,6 +59,7 @@ struct AlterPatternResult {
   double original_area = 0.0, target_area = 0.0, inserted_area = 0.0, removed_area = 0.0;  // m^2
   double area_imbalance = 0.0;  // |original + inserted - removed - target| / target
   int insertion_rounds = 0, removal_rounds = 0, trials = 0, reverted = 0, dropped_regions = 0;
+  SewnPattern sewn;                // the altered garment, ready to be cut
   std::vector<std::string> flags;  // panels where the stretch limit was not reached, with the reason
 };
 

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "engine/core/pattern.h"
+#include "engine/core/record.h"
 
 namespace toile::io {
 
@@ -26,6 +27,9 @@ Pattern read_garmentcode(std::span<const std::uint8_t> bytes);
 // The same document again, in centimetres; each edge with its own type of curve. Fields at their defaults are left out,
 // the `toile` block too when nothing in it differs. Deterministic.
 std::string write_garmentcode(const Pattern& pattern);
+
+// The same with what else is known of an altered pattern, at top level under "alteration"; readers pass over it.
+std::string write_altered_pattern(const Pattern& pattern, const Record& alteration);
 
 // The turn of a placement: about the fixed world axes X, then Y, then Z, in degrees.
 Mat3 rotation_of_degrees(const Vec3& degrees);

@@ -5,6 +5,7 @@
 
 #include "engine/core/units.h"
 #include "engine/io/garmentcode_json.h"
+#include "engine/io/record_json.h"
 #include "engine/io/toile_block.h"
 
 namespace toile::io {
@@ -72,9 +73,7 @@ json panel_json(const Panel& panel) {
   return value;
 }
 
-}  // namespace
-
-std::string write_garmentcode(const Pattern& pattern) {
+json document_of(const Pattern& pattern) {
   json panels = json::object(), order = json::array(), stitches = json::array();
   for (const Panel& panel : pattern.panels) {
     panels[panel.name] = panel_json(panel);
@@ -98,6 +97,18 @@ std::string write_garmentcode(const Pattern& pattern) {
                      {"normalized_edge_loops", true}}}};
   const json block = write_toile_block(pattern, kUnit);
   if (!block.empty()) document["toile"] = block;
+  return document;
+}
+
+}  // namespace
+
+std::string write_garmentcode(const Pattern& pattern) {
+  return document_of(pattern).dump(1) + "\n";
+}
+
+std::string write_altered_pattern(const Pattern& pattern, const Record& alteration) {
+  json document = document_of(pattern);
+  document["alteration"] = json::parse(write_json(alteration));
   return document.dump(1) + "\n";
 }
 

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/alter/altered_regions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "engine/alter/panel_tracks.h"
+#include "engine/core/units.h"
+#include "engine/geometry/conform_loops.h"
+#include "engine/geometry/inner_point.h"
+
+namespace toile {
+namespace {
+
+constexpr double kSamePoint = 2e-5;   // m
+constexpr double kSlit = 5e-5;        // m: half the width of a cut that is sewn up again, so that lips are apart
+constexpr double kOnBorder = 3e-4;    // m: a lip this near to an insertion opens into it
+constexpr double kLeastPiece = 4e-4;  // m^2: smaller kept pieces go with the insertion beside them
+constexpr double kCorner = 30.0 * kRadianPerDegree;
+
+double turn(const Vec2& in, const Vec2& out) {
+  return std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+}
+
+Vec2 left_of(const Vec2& way) {
+  const double length = way.norm();
+  return length > 0 ? Vec2(-way.y() / length, way.x() / length) : Vec2::Zero();
+}
+
+struct Lip {
+  Vec2 from, to;  // cloth on the left
+};
+
+// Edges of the stretched cloth that a cut made.
+std::vector<Lip> lips_of(const Sheet& sheet) {
+  std::vector<Lip> lips;
+  for (const BorderEdge& edge : border_edges(sheet))
+    if (edge.side < 0)
+      lips.push_back({sheet.vertices[static_cast<std::size_t>(edge.from)].now,
+                      sheet.vertices[static_cast<std::size_t>(edge.to)].now});
+  return lips;
+}
+
+// The strip of kept cloth along the lips that open into an insertion: what is turned in.
+Loops turned_in(const std::vector<Lip>& lips, const std::vector<Vec2>& insertion, double width) {
+  Loops strips;
+  for (const Lip& lip : lips) {
+    const Vec2 way = lip.to - lip.from;
+    if (way.norm() < 1e-9 || distance_to_polygon(insertion, 0.5 * (lip.from + lip.to)) > kOnBorder) continue;
+    // Longer than the lip, so that neighbouring strips overlap and the last one reaches the outline.
+    const Vec2 along = width * way.normalized(), in = width * left_of(way), back = kSamePoint * left_of(way);
+    strips.push_back({lip.from - along - back, lip.to + along - back, lip.to + along + in, lip.from - along + in});
+  }
+  return strips;
+}
+
+// A cut of the removing pass as a slit of no noticeable width, open at the ends that reach the outline.
+std::vector<Vec2> slit_of(const Sheet& sheet, const Cut& cut) {
+  std::vector<Vec2> path;
+  for (const auto& lips : cut.lips) path.push_back(sheet.vertices[static_cast<std::size_t>(lips.first)].flat);
+  if (path.size() < 2) return {};
+  const auto reaches_outline = [&](int v) { return sheet.vertices[static_cast<std::size_t>(v)].anchors[0].side >= 0; };
+  const bool tip = cut.lips.back().first == cut.lips.back().second;
+  const Vec2 first = (path[0] - path[1]).normalized(), last = (path.back() - path[path.size() - 2]).normalized();
+  path.front() += kSlit * (reaches_outline(cut.lips.front().first) ? 3.0 : 1.0) * first;
+  if (!tip) path.back() += kSlit * (reaches_outline(cut.lips.back().first) ? 3.0 : 1.0) * last;
+  std::vector<Vec2> left, right;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Vec2 way = path[std::min(i + 1, path.size() - 1)] - path[i > 0 ? i - 1 : 0];
+    const bool sharp = tip && i + 1 == path.size();
+    left.emplace_back(path[i] + kSlit * left_of(way));
+    if (!sharp) right.emplace_back(path[i] - kSlit * left_of(way));
+    if (sharp) left.back() = path[i];
+  }
+  left.insert(left.end(), right.rbegin(), right.rend());
+  std::reverse(left.begin(), left.end());
+  return left;
+}
+
+// Whether cloth is taken away between the lips of a cut; else it is as if the cut had not been made.
+bool takes_away(const Sheet& sheet, const Cut& cut, const PanelAlteration& alteration) {
+  return std::any_of(cut.lips.begin(), cut.lips.end(), [&](const auto& lips) {
+    const Vec2 middle = 0.5 * (sheet.vertices[static_cast<std::size_t>(lips.first)].now +
+                               sheet.vertices[static_cast<std::size_t>(lips.second)].now);
+    return lips.first != lips.second &&
+           std::any_of(alteration.removals.begin(), alteration.removals.end(),
+                       [&](const AlteredRegion& region) { return inside_polygon(region.shape.outline, middle); });
+  });
+}
+
+class PanelParter {
+ public:
+  PanelParter(const PatternMesh& mesh, const Points2& target_rest, const Sheet& inserting, const Sheet& removing,
+              const PanelAlteration& alteration)
+      : alteration_(alteration), removing_(removing), tracks_(mesh, target_rest, inserting.panel) {
+    for (const auto& ends : mesh.edge_vertices[static_cast<std::size_t>(inserting.panel)]) {
+      corner_vertices_.insert(ends.front());
+      corner_vertices_.insert(ends.back());
+    }
+    for (const SheetVertex& vertex : inserting.vertices)
+      if (corner_vertices_.contains(vertex.origin)) cloth_corners_.push_back(vertex.now);
+  }
+
+  AlteredParts run(const Sheet& inserting, const std::vector<bool>& let_out, double turn_in) {
+    grow_insertions(lips_of(inserting), let_out, turn_in);
+    part_kept_cloth();
+    if (result_.problem.empty()) share_borders();
+    return std::move(result_);
+  }
+
+ private:
+  void grow_insertions(const std::vector<Lip>& lips, const std::vector<bool>& let_out, double turn_in);
+  void part_kept_cloth();
+  void give_away(const std::vector<Vec2>& piece);
+  void share_borders();
+  void name_border(RegionBorder& border, int part, const std::map<std::pair<int, int>, int>& owner);
+  void mark_corners();
+
+  struct Area {
+    int insertion;
+    std::vector<Vec2> outline;
+  };
+  const PanelAlteration& alteration_;
+  const Sheet& removing_;
+  PanelTracks tracks_;
+  std::set<int> corner_vertices_;
+  std::vector<Vec2> cloth_corners_;
+  std::vector<Area> insertions_, kept_;
+  AlteredParts result_;
+};
+
+void PanelParter::grow_insertions(const std::vector<Lip>& lips, const std::vector<bool>& let_out, double turn_in) {
+  Loops others;  // grown already, or with cloth of their own
+  for (std::size_t i = 0; i < alteration_.insertions.size(); ++i)
+    if (!let_out[i]) others.push_back(alteration_.insertions[i].shape.outline);
+  std::size_t own = 0;
+  for (std::size_t i = 0; i < alteration_.insertions.size(); ++i) {
+    if (let_out[i]) continue;
+    const std::vector<Vec2>& outline = alteration_.insertions[i].shape.outline;
+    if (!alteration_.insertions[i].shape.holes.empty()) result_.problem = "an insertion goes round kept cloth";
+    Area grown{static_cast<int>(i), outline};
+    Loops cloth = turned_in(lips, outline, turn_in);
+    if (!cloth.empty()) {
+      cloth.push_back(outline);
+      Loops rest = others;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(own));
+      Loops inside;
+      for (const PolygonWithHoles& part : polygon_intersection({alteration_.target}, cloth))
+        inside.push_back(part.outline);
+      const auto parts = rest.empty() ? polygon_union(inside) : polygon_difference(inside, rest);
+      const auto largest =
+          std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return area(a) < area(b); });
+      if (largest != parts.end()) grown.outline = largest->outline;
+    }
+    others[own++] = grown.outline;
+    insertions_.push_back(std::move(grown));
+  }
+}
+
+// A kept piece too small to be handled is cut with the insertion it lies nearest to.
+void PanelParter::give_away(const std::vector<Vec2>& piece) {
+  Area* nearest = nullptr;
+  double most = 0.0;
+  for (Area& insertion : insertions_) {
+    double shared = 0.0;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const Vec2 &a = piece[i], &b = piece[(i + 1) % piece.size()];
+      if (distance_to_polygon(insertion.outline, 0.5 * (a + b)) < kSamePoint) shared += (b - a).norm();
+    }
+    if (shared > most) most = shared, nearest = &insertion;
+  }
+  if (!nearest) return;
+  const auto joined = polygon_union({nearest->outline, piece});
+  if (joined.size() == 1 && joined[0].holes.empty()) nearest->outline = joined[0].outline;
+}
+
+void PanelParter::part_kept_cloth() {
+  Loops taken;
+  for (const Area& insertion : insertions_) taken.push_back(insertion.outline);
+  for (const Cut& cut : removing_.cuts)
+    if (takes_away(removing_, cut, alteration_)) taken.push_back(slit_of(removing_, cut));
+  std::erase_if(taken, [](const auto& loop) { return loop.size() < 3; });
+  if (taken.empty()) {
+    kept_.push_back({-1, alteration_.target});
+    return;
+  }
+  for (PolygonWithHoles& piece : polygon_difference({alteration_.target}, taken)) {
+    if (area(piece) < kLeastPiece)
+      give_away(piece.outline);
+    else if (!piece.holes.empty())
+      result_.problem = "an insertion lies in the middle of the panel";
+    else
+      kept_.push_back({-1, std::move(piece.outline)});
+  }
+}
+
+void PanelParter::share_borders() {
+  std::vector<std::vector<Vec2>> loops;
+  std::vector<Area> areas = kept_;
+  areas.insert(areas.end(), insertions_.begin(), insertions_.end());
+  for (const Area& part : areas) loops.push_back(part.outline);
+  loops.push_back(alteration_.target);
+  for (const Vec2& corner : cloth_corners_) loops.push_back({corner});
+  ConformedLoops conformed = conform_loops(loops, kSamePoint);
+  result_.points = std::move(conformed.points);
+  std::map<std::pair<int, int>, int> owner;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const std::vector<int>& loop = conformed.loops[i];
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      if (!owner.emplace(std::pair(loop[k], loop[(k + 1) % loop.size()]), static_cast<int>(i)).second)
+        result_.problem = "pieces overlap";
+  }
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    const std::vector<int>& loop = conformed.loops[i];
+    AlteredPart part{areas[i].insertion, {}};
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      part.loop.push_back({loop[k], loop[(k + 1) % loop.size()], -1, {}, 0.0, 0.0});
+      name_border(part.loop.back(), static_cast<int>(i), owner);
+    }
+    if (part.loop.empty()) result_.problem = "a piece without area";
+    result_.parts.push_back(std::move(part));
+  }
+  mark_corners();
+}
+
+void PanelParter::name_border(RegionBorder& border, int part, const std::map<std::pair<int, int>, int>& owner) {
+  const auto across = owner.find({border.to, border.from});
+  if (across != owner.end() && across->second != part) {
+    border.neighbour = across->second;
+    return;
+  }
+  const Vec2 &a = result_.points[static_cast<std::size_t>(border.from)],
+             &b = result_.points[static_cast<std::size_t>(border.to)];
+  if (tracks_.along_edge(a, b, border)) return;
+  for (std::size_t c = 0; c < removing_.cuts.size(); ++c)
+    if (tracks_.along_cut(removing_, c, a, b, 4.0 * kSlit, border)) return;
+  if ((b - a).norm() > 4.0 * kSlit) result_.problem = "a border belongs to nothing";
+  tracks_.nearest_edge(a, b, border);
+}
+
+// Borders turn or end where what lies beyond changes, where they bend, and at corners of the cloth.
+void PanelParter::mark_corners() {
+  result_.corner.assign(result_.points.size(), false);
+  std::set<std::array<long, 2>> known;
+  for (const AlteredPart& part : result_.parts)
+    for (std::size_t k = 0; k < part.loop.size(); ++k) {
+      const RegionBorder &in = part.loop[k], &out = part.loop[(k + 1) % part.loop.size()];
+      const auto at = [&](int p) -> const Vec2& { return result_.points[static_cast<std::size_t>(p)]; };
+      const bool bends = std::abs(turn(at(in.to) - at(in.from), at(out.to) - at(out.from))) > kCorner;
+      const bool changes = in.neighbour != out.neighbour || in.track != out.track;
+      const bool cloth_corner =
+          in.neighbour >= 0 && std::any_of(cloth_corners_.begin(), cloth_corners_.end(),
+                                           [&](const Vec2& p) { return (p - at(in.to)).norm() < kSamePoint; });
+      if (changes || cloth_corner || (bends && in.neighbour >= 0))
+        result_.corner[static_cast<std::size_t>(in.to)] = true;
+    }
+}
+
+}  // namespace
+
+AlteredParts part_altered_panel(const PatternMesh& mesh, const Points2& target_rest, const Sheet& inserting,
+                                const Sheet& removing, const PanelAlteration& alteration,
+                                const std::vector<bool>& let_out, double turn_in) {
+  return PanelParter(mesh, target_rest, inserting, removing, alteration).run(inserting, let_out, turn_in);
+}
+
+AlteredParts whole_panel(const PatternMesh& mesh, const Points2& target_rest, const std::vector<Vec2>& wanted,
+                         int panel) {
+  const PanelTracks tracks(mesh, target_rest, panel);
+  AlteredParts result;
+  result.points = wanted;
+  result.corner.assign(wanted.size(), false);
+  AlteredPart part;
+  const int count = static_cast<int>(wanted.size());
+  for (int i = 0; i < count; ++i) {
+    part.loop.push_back({i, (i + 1) % count, -1, {}, 0.0, 0.0});
+    tracks.nearest_edge(wanted[static_cast<std::size_t>(i)], wanted[static_cast<std::size_t>((i + 1) % count)],
+                        part.loop.back());
+  }
+  for (std::size_t i = 0; i < part.loop.size(); ++i) {
+    const RegionBorder& next = part.loop[(i + 1) % part.loop.size()];
+    if (part.loop[i].track != next.track) result.corner[static_cast<std::size_t>(next.from)] = true;
+  }
+  result.parts = {std::move(part)};
+  return result;
+}
+
+}  // namespace toile

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/alter/piece_edges.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/geometry/fit_curve.h"
+#include "engine/geometry/part_of_curve.h"
+
+namespace toile {
+namespace {
+
+constexpr double kOnCurve = 6e-4;     // m: a chain this near to an original edge is a part of it
+constexpr double kSameCorner = 1e-3;  // m: so is a corner
+constexpr double kStraight = 2e-4;    // m
+constexpr double kSmooth = 3e-4;      // m: of a Bézier through the chain's points
+constexpr double kPolyline = 5e-5;    // m: of the polyline where no Bézier follows
+
+struct OriginalPart {
+  int edge = -1;
+  double from = 0.0, to = 0.0;  // parameters; to < from against the edge's own way
+};
+
+double length_of(const std::vector<Vec2>& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
+
+double distance_to_chord(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 way = b - a;
+  const double t = way.squaredNorm() > 0 ? std::clamp((p - a).dot(way) / way.squaredNorm(), 0.0, 1.0) : 0.0;
+  return (a + t * way - p).norm();
+}
+
+OriginalPart part_of_edge(const Panel& original, int edge, const std::vector<Vec2>& points) {
+  const Curve curve = edge_curve(original, edge);
+  if ((curve.end - curve.start).norm() < 1e-9) return {};
+  for (const Vec2& p : points)
+    if (distance_to_chord(p, curve.start, curve.end) > curve_length(curve)) return {};
+  const CurvePlace first = nearest_on_curve(curve, points.front()), last = nearest_on_curve(curve, points.back());
+  if (first.distance > kOnCurve || last.distance > kOnCurve || std::abs(first.t - last.t) < 1e-6) return {};
+  for (const Vec2& p : points)
+    if (nearest_on_curve(curve, p).distance > kOnCurve) return {};
+  return {edge, first.t, last.t};
+}
+
+OriginalPart original_part(const Panel& original, int likely, const std::vector<Vec2>& points) {
+  if (likely >= 0)
+    if (const OriginalPart part = part_of_edge(original, likely, points); part.edge >= 0) return part;
+  for (int e = 0; e < original.edge_count(); ++e)
+    if (e != likely)
+      if (const OriginalPart part = part_of_edge(original, e, points); part.edge >= 0) return part;
+  return {};
+}
+
+// Fewest of the inner points such that none is farther than the tolerance from the line.
+std::vector<Vec2> thinned(const std::vector<Vec2>& points, double tolerance) {
+  std::vector<bool> keep(points.size(), false);
+  keep.front() = keep.back() = true;
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points.size() - 1}};
+  while (!open.empty()) {
+    const auto [a, b] = open.back();
+    open.pop_back();
+    std::size_t worst = a;
+    double most = tolerance;
+    for (std::size_t i = a + 1; i < b; ++i) {
+      const double off = distance_to_chord(points[i], points[a], points[b]);
+      if (off > most) most = off, worst = i;
+    }
+    if (worst == a) continue;
+    keep[worst] = true;
+    open.emplace_back(a, worst);
+    open.emplace_back(worst, b);
+  }
+  std::vector<Vec2> inner;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    if (keep[i]) inner.push_back(points[i]);
+  return inner;
+}
+
+// The simplest curve through the points.
+EdgeCurve curve_through(const std::vector<Vec2>& points) {
+  EdgeCurve curve;
+  if (std::all_of(points.begin(), points.end(),
+                  [&](const Vec2& p) { return distance_to_chord(p, points.front(), points.back()) < kStraight; }))
+    return curve;
+  const double length = length_of(points);
+  Curve guess{points.front(), points.back(), {}};
+  guess.shape.kind = CurveKind::CubicBezier;
+  guess.shape.control = {points.front() + length / 3 * (points[1] - points[0]).normalized(),
+                         points.back() - length / 3 * (points.back() - points[points.size() - 2]).normalized()};
+  if (points.size() > 3) {
+    std::vector<double> parameters;
+    double walked = 0.0;
+    for (std::size_t i = 1; i + 1 < points.size(); ++i)
+      parameters.push_back((walked += (points[i] - points[i - 1]).norm()) / length);
+    const CurveFit fit = fit_curve(guess, {points.begin() + 1, points.end() - 1}, parameters);
+    if (fit.deviation < kSmooth && std::abs(curve_length(fit.curve) - length) < kSmooth) return fit.curve.shape;
+  }
+  curve.points = thinned(points, kPolyline);
+  if (!curve.points.empty()) curve.kind = CurveKind::Polyline;
+  return curve;
+}
+
+class EdgeDrawer {
+ public:
+  EdgeDrawer(const PieceBorder& piece, const std::vector<const BorderChain*>& chains, const Panel* original)
+      : original_(original) {
+    for (const BorderChain* chain : chains) {
+      points_.emplace_back();
+      for (const int v : chain->vertices) points_.back().push_back(piece.vertices[static_cast<std::size_t>(v)].rest);
+      parts_.push_back(
+          original ? original_part(*original, chain->along.neighbour < 0 ? chain->along.track.edge : -1, points_.back())
+                   : OriginalPart{});
+    }
+  }
+
+  PieceEdges run() {
+    const std::size_t count = points_.size();
+    PieceEdges result;
+    for (std::size_t k = 0; k < count; ++k) result.corners.push_back(corner((k + count - 1) % count, k));
+    for (std::size_t k = 0; k < count; ++k) {
+      std::vector<Vec2>& points = points_[k];
+      result.lengths.push_back(length_of(points));
+      points.front() = result.corners[k];
+      points.back() = result.corners[(k + 1) % count];
+      result.of_edge.push_back(parts_[k].edge);
+      result.curves.push_back(parts_[k].edge >= 0 ? original_curve(k) : curve_through(points));
+    }
+    return result;
+  }
+
+ private:
+  // Where chain `before` ends and `after` begins: an original corner, or a place on an original edge.
+  Vec2 corner(std::size_t before, std::size_t after) const {
+    const Vec2 here = points_[after].front();
+    if (!original_) return here;
+    const OriginalPart &ending = parts_[before], &beginning = parts_[after];
+    if (ending.edge >= 0 || beginning.edge >= 0)
+      for (const Vec2& known : original_->corners)
+        if ((known - here).norm() < kSameCorner) return known;
+    if (beginning.edge >= 0) return curve_point(edge_curve(*original_, beginning.edge), beginning.from);
+    if (ending.edge >= 0) return curve_point(edge_curve(*original_, ending.edge), ending.to);
+    return here;
+  }
+
+  EdgeCurve original_curve(std::size_t k) const {
+    const OriginalPart& part = parts_[k];
+    const Curve whole = edge_curve(*original_, part.edge);
+    const auto at = [&](double t, const Vec2& place) {  // a corner stands for the whole edge
+      if ((place - whole.start).norm() < 1e-9) return 0.0;
+      return (place - whole.end).norm() < 1e-9 ? 1.0 : t;
+    };
+    const double from = at(part.from, points_[k].front()), to = at(part.to, points_[k].back());
+    return from < to ? part_of_curve(whole, from, to).shape : reversed(part_of_curve(whole, to, from)).shape;
+  }
+
+  const Panel* original_;
+  std::vector<std::vector<Vec2>> points_;
+  std::vector<OriginalPart> parts_;
+};
+
+}  // namespace
+
+PieceEdges draw_piece_edges(const PieceBorder& piece, const std::vector<const BorderChain*>& chains,
+                            const Panel* original) {
+  return EdgeDrawer(piece, chains, original).run();
+}
+
+}  // namespace toile

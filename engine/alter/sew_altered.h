@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Put the altered garment together as a pattern: kept pieces as they are cut from the original cloth, insertions true
+// to scale, new seams where they meet, original seams parted where pieces meet on either ply.
+//
+// A piece's edge that lies on an edge of the original panel is a part of that edge's own curve; others are lines,
+// Bézier curves or polylines through their points. Seam allowances, hems, locks and labels follow the edges, notches
+// and grainlines the cloth; new seams get a notch in their middle. A panel whose alteration cannot be sewn (pieces that
+// overlap, cloth that turns over) is cut anew to the target and flagged.   Lengths in metres.
+#pragma once
+
+#include "engine/alter/alter_pattern.h"
+#include "engine/alter/sewn_pattern.h"
+
+namespace toile {
+
+// Requires result.panels and result.ticket of the same two passes.
+SewnPattern sew_altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
+                        const TornPattern& inserting, const TornPattern& removing, const AlterPatternResult& result);
+
+}  // namespace toile

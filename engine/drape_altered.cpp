@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/drape_altered.h"
+
+#include "engine/geometry/flat_locator.h"
+#include "engine/stages/build_fitting_map.h"
+#include "engine/stages/import_pattern.h"
+#include "engine/stages/mesh_panels.h"
+
+namespace toile {
+namespace {
+
+// One panel of a pattern mesh.
+struct FlatPanel {
+  int first_triangle;
+  Triangles triangles;  // into the whole mesh
+  FlatLocator locator;
+
+  FlatPanel(const PatternMesh& mesh, int panel)
+      : first_triangle(range(mesh, panel).triangle_begin),
+        triangles(mesh.triangles.middleRows(first_triangle, range(mesh, panel).triangle_end - first_triangle)),
+        locator(mesh.rest, triangles) {}
+  static const PanelRange& range(const PatternMesh& mesh, int panel) {
+    return mesh.panels[static_cast<std::size_t>(panel)];
+  }
+};
+
+class AlteredDraper {
+ public:
+  AlteredDraper(const SewnPattern& sewn, const PatternMesh& original, const FittingMap& reference_fit,
+                const DerivedPattern& derived)
+      : sewn_(sewn), reference_fit_(reference_fit), derived_(derived) {
+    for (int p = 0; p < static_cast<int>(original.panels.size()); ++p) {
+      original_.emplace_back(original, p);
+      target_.emplace_back(derived.mesh, p);
+    }
+    for (const SewnPiece& piece : sewn.pieces) flat_.emplace_back(piece.map.rest, piece.map.triangles);
+    nodes_.resize(derived.mesh.vertex_count(), 3);
+    for (int v = 0; v < derived.mesh.vertex_count(); ++v)
+      nodes_.row(v) = derived.drape.drape.nodes.row(derived.mesh.node_of_vertex[static_cast<std::size_t>(v)]);
+  }
+
+  Drape start(const PatternMesh& mesh) const {
+    Drape drape{Points3::Zero(mesh.node_count, 3)};
+    std::vector<int> count(static_cast<std::size_t>(mesh.node_count), 0);
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+      const int piece = mesh.panel_of_vertex[static_cast<std::size_t>(v)];
+      const int node = mesh.node_of_vertex[static_cast<std::size_t>(v)];
+      const FlatPanel& panel = target_panel(piece);
+      const FlatPlace place = panel.locator.closest(in_target(piece, mesh.rest.row(v)));
+      drape.nodes.row(node) += place.of(nodes_, panel.triangles);
+      ++count[static_cast<std::size_t>(node)];
+    }
+    for (int n = 0; n < mesh.node_count; ++n) drape.nodes.row(n) /= count[static_cast<std::size_t>(n)];
+    return drape;
+  }
+
+  // The reference fit of every triangle's cloth.
+  FittingMap wanted(const PatternMesh& mesh, const FittingMap& fit) const {
+    FittingMap map = fit;
+    for (int f = 0; f < mesh.triangle_count(); ++f) {
+      const int piece = mesh.panel_of_triangle[static_cast<std::size_t>(f)];
+      Vec2 middle = Vec2::Zero();
+      for (int k = 0; k < 3; ++k) middle += mesh.rest.row(mesh.triangles(f, k)).transpose() / 3.0;
+      const int from = reference_triangle(piece, middle);
+      const auto to = static_cast<std::size_t>(f), source = static_cast<std::size_t>(from);
+      map.tensor[to] = reference_fit_.tensor[source];
+      map.degenerate[to] = reference_fit_.degenerate[source];
+      map.stretch_weft[f] = reference_fit_.stretch_weft[from];
+      map.stretch_warp[f] = reference_fit_.stretch_warp[from];
+      map.shear[f] = reference_fit_.shear[from];
+    }
+    return map;
+  }
+
+ private:
+  const SewnPiece& piece_of(int piece) const { return sewn_.pieces[static_cast<std::size_t>(piece)]; }
+  const FlatPanel& target_panel(int piece) const { return target_[static_cast<std::size_t>(piece_of(piece).panel)]; }
+  Vec2 in_target(int piece, const Vec2& rest) const {
+    const PieceMap& map = piece_of(piece).map;
+    return flat_[static_cast<std::size_t>(piece)].closest(rest).of(map.target, map.triangles).transpose();
+  }
+  int reference_triangle(int piece, const Vec2& rest) const {
+    const bool own_cloth = piece_of(piece).insertion < 0 && !piece_of(piece).recut;
+    const FlatPanel& panel =
+        own_cloth ? original_[static_cast<std::size_t>(piece_of(piece).panel)] : target_panel(piece);
+    return panel.first_triangle + panel.locator.closest(own_cloth ? rest : in_target(piece, rest)).triangle;
+  }
+
+  const SewnPattern& sewn_;
+  const FittingMap& reference_fit_;
+  const DerivedPattern& derived_;
+  std::vector<FlatPanel> original_, target_;
+  std::vector<FlatLocator> flat_;  // per piece
+  Points3 nodes_;                  // of the target pattern's vertices
+};
+
+}  // namespace
+
+DrapedAlteration drape_altered(const SewnPattern& sewn, const PatternMesh& original, const FittingMap& reference_fit,
+                               const DerivedPattern& derived, const Body& target_body, const DrapeOptions& options,
+                               Progress* progress) {
+  DrapedAlteration result;
+  if (sewn.pieces.empty()) {
+    result.problem = sewn.flags.empty() ? "there is no sewn pattern" : sewn.flags.front();
+    return result;
+  }
+  const AlteredDraper draper(sewn, original, reference_fit, derived);
+  try {  // an alteration that cannot be sewn is a finding, not a failure of the job
+    validate_pattern(sewn.pattern);
+    MeshPanelsOptions mesh_options;
+    mesh_options.edge_length = original.target_edge_length;
+    result.mesh = mesh_panels(sewn.pattern, mesh_options, progress);
+  } catch (const Error& error) {
+    if (error.code != ErrorCode::GarmentInvalid && error.code != ErrorCode::SeamInvalid &&
+        error.code != ErrorCode::LimitExceeded)
+      throw;
+    result.problem = error.what();
+    result.mesh = {};
+    return result;
+  }
+  const Drape start = draper.start(result.mesh);
+  result.drape = drape_from(sewn.pattern, result.mesh, target_body, start, options, progress);
+  result.fit = build_fitting_map(result.mesh, result.drape.drape);
+  result.reference = draper.wanted(result.mesh, result.fit);
+  result.position = compare_positions(start.nodes, result.drape.drape.nodes);
+  return result;
+}
+
+}  // namespace toile

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The altered garment as a pattern: areas add up, every seam joins what it should, and the cloth is the original's.
+#include "engine/alter/sew_altered.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/geometry/curve.h"
+#include "engine/stages/import_pattern.h"
+#include "tests/support/grid_garment.h"
+
+namespace toile {
+namespace {
+
+using test::grid_garment;
+using test::GridGarment;
+using Map = std::function<Vec2(int panel, const Vec2&)>;
+
+constexpr double kPerCm2 = 1e4;
+constexpr double kSameLength = 5e-4;  // m: sewn sides against their intended lengths
+
+GridGarment sheet() {
+  return grid_garment({{"front", 0.4, 0.6, 20, 30, 0.2}});
+}
+
+AlterPatternResult alter(const GridGarment& garment, const Map& map, const AlterPatternOptions& options = {}) {
+  return alter_pattern(garment.pattern, garment.mesh, garment.mapped(map), options);
+}
+
+double area_of(const SewnPattern& sewn, bool insertions) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < sewn.pieces.size(); ++i)
+    if ((sewn.pieces[i].insertion >= 0) == insertions) sum += std::abs(outline_signed_area(sewn.pattern.panels[i]));
+  return sum * kPerCm2;
+}
+
+void expect_sound(const SewnPattern& sewn) {
+  ASSERT_EQ(sewn.pattern.panels.size(), sewn.pieces.size());
+  ASSERT_EQ(sewn.pattern.seams.size(), sewn.seams.size());
+  for (const std::string& flag : sewn.flags) ADD_FAILURE() << flag;
+  EXPECT_NO_THROW(validate_pattern(sewn.pattern));
+  for (std::size_t s = 0; s < sewn.seams.size(); ++s) {
+    const auto length = [&](const SeamSide& side) { return edge_length(sewn.pattern.panel(side.panel), side.edge); };
+    EXPECT_NEAR(length(sewn.pattern.seams[s].a), sewn.seams[s].length_a, kSameLength);
+    EXPECT_NEAR(length(sewn.pattern.seams[s].b), sewn.seams[s].length_b, kSameLength);
+  }
+}
+
+Map scaled(double wide, double tall) {
+  return [=](int, const Vec2& p) { return Vec2(wide * p.x(), tall * p.y()); };
+}
+
+TEST(SewAltered, LeavesAnUnchangedPatternAsItIs) {
+  const GridGarment garment = sheet();
+  const AlterPatternResult result = alter(garment, scaled(1, 1));
+  expect_sound(result.sewn);
+  ASSERT_EQ(result.sewn.pattern.panels.size(), 1u);
+  const Panel &before = garment.pattern.panels[0], &after = result.sewn.pattern.panels[0];
+  ASSERT_EQ(after.edge_count(), before.edge_count());
+  double farthest = 0.0;
+  for (const Vec2& p : before.corners) {
+    double nearest = 1.0;
+    for (const Vec2& q : after.corners) nearest = std::min(nearest, (p - q).norm());
+    farthest = std::max(farthest, nearest);
+  }
+  EXPECT_LT(farthest, 1e-9);
+}
+
+TEST(SewAltered, SewsAStripToTheKeptPanel) {
+  const AlterPatternResult result = alter(sheet(), scaled(1.2, 1));
+  expect_sound(result.sewn);
+  ASSERT_EQ(result.sewn.pieces.size(), 2u);
+  EXPECT_EQ(result.sewn.pattern.seams.size(), 1u);
+  EXPECT_NEAR(area_of(result.sewn, false), 2400, 1);
+  EXPECT_NEAR(area_of(result.sewn, true), 480, 1);
+}
+
+TEST(SewAltered, CutsTheTakenInPanelSmaller) {
+  const GridGarment wide = grid_garment({{"front", 0.48, 0.6, 24, 30, 0.2}});
+  const AlterPatternResult result = alter(wide, scaled(1 / 1.2, 1));
+  expect_sound(result.sewn);
+  ASSERT_EQ(result.sewn.pieces.size(), 1u);
+  EXPECT_NEAR(area_of(result.sewn, false), 2400, 2);
+}
+
+TEST(SewAltered, InsertsAndRemovesInOnePanel) {
+  const AlterPatternResult result = alter(sheet(), scaled(1.2, 50.0 / 60));
+  expect_sound(result.sewn);
+  EXPECT_NEAR(area_of(result.sewn, false), 2000, 10);
+  EXPECT_NEAR(area_of(result.sewn, true), 400, 2);
+  for (const SewnPiece& piece : result.sewn.pieces) EXPECT_LT(piece.strain, 0.03);
+}
+
+TEST(SewAltered, LetsAWedgeIntoTheClothWithWhatIsTurnedIn) {
+  const auto flare = [](int, const Vec2& p) { return Vec2(p.x() * (0.52 - 0.12 * p.y() / 0.6) / 0.4, p.y()); };
+  const AlterPatternResult result = alter(sheet(), flare);
+  expect_sound(result.sewn);
+  EXPECT_NEAR(area_of(result.sewn, true) + area_of(result.sewn, false), 2400 + 360, 15);
+}
+
+TEST(SewAltered, SewsADartIntoThePanel) {
+  const auto dart = [](int, const Vec2& p) {
+    const double narrow = 0.04 * std::max(0.0, (p.y() - 0.35) / 0.25);
+    return Vec2(narrow + p.x() * (0.4 - 2 * narrow) / 0.4, p.y());
+  };
+  const AlterPatternResult result = alter(sheet(), dart);
+  expect_sound(result.sewn);
+  EXPECT_NEAR(area_of(result.sewn, false), 2300, 10);
+}
+
+}  // namespace
+}  // namespace toile
