@@ -50,10 +50,10 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   const auto transported = runner.run("transport_garment", 2, key_of(reference.key, registered.key), [&] {
     return transport_garment(mesh, worn.drape, wearer, target.value, registered.value.map, {}, runner.progress());
   });
-  const auto before = runner.run("drape_before", 2, key_of(transported.key, drape_options), [&] {
+  const auto before = runner.run("drape_before", 3, key_of(transported.key, drape_options), [&] {
     return drape_from(pattern, mesh, target.value, transported.value.drape, drape_options, runner.progress());
   });
-  const auto derived = runner.run("derive_pattern", 2, key_of(transported.key, derive_options, loop_options), [&] {
+  const auto derived = runner.run("derive_pattern", 3, key_of(transported.key, derive_options, loop_options), [&] {
     return derive_in_loop(pattern, mesh, fit, target.value, transported.value.drape, derive_options, drape_options,
                           loop_options, runner.progress());
   });
