@@ -28,9 +28,9 @@ void archive(A& a, BodyLevels& v) {
 template <class A>
 void archive(A& a, DrapeOptions& v) {
   auto& [friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, lift, drafted_for,
-         keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, self_contact, first_rung] = v;
+         keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, first_rung] = v;
   a(friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, lift, drafted_for,
-    keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, self_contact, first_rung);
+    keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, first_rung);
 }
 template <class A>
 void archive(A& a, DrapeFinding& v) {
@@ -63,8 +63,8 @@ void archive(A& a, DrapeResult& v) {
 
 template <class A>
 void archive(A& a, DerivePatternOptions& v) {
-  auto& [max_sweeps, energy_drop, seam_weight, keep_straight] = v;
-  a(max_sweeps, energy_drop, seam_weight, keep_straight);
+  auto& [max_sweeps, energy_drop, seam_weight, keep_straight, smooth] = v;
+  a(max_sweeps, energy_drop, seam_weight, keep_straight, smooth);
 }
 template <class A>
 void archive(A& a, DeriveSweep& v) {
@@ -82,12 +82,6 @@ void archive(A& a, DeriveInLoopOptions& v) {
   a(max_passes, good_enough, least_gain);
 }
 template <class A>
-void archive(A& a, DerivedPattern& v) {
-  auto& [mesh, drape, fit, rms_stretch_error, pass_errors, derivation] = v;
-  a(mesh, drape, fit, rms_stretch_error, pass_errors, derivation);
-}
-
-template <class A>
 void archive(A& a, PositionDifference& v) {
   auto& [rms, p95, largest, worst_node] = v;
   a(rms, p95, largest, worst_node);
@@ -102,6 +96,12 @@ template <class A>
 void archive(A& a, FitPatternEdgesResult& v) {
   auto& [pattern, deviation, largest_deviation, largest_seam_mismatch, bent_edges, polyline_edges] = v;
   a(pattern, deviation, largest_deviation, largest_seam_mismatch, bent_edges, polyline_edges);
+}
+
+template <class A>
+void archive(A& a, DerivedPattern& v) {
+  auto& [drawn, mesh, drape, fit, rms_stretch_error, pass_errors, derivation, kept_change, held_back] = v;
+  a(drawn, mesh, drape, fit, rms_stretch_error, pass_errors, derivation, kept_change, held_back);
 }
 
 template <class A>

@@ -11,16 +11,23 @@ struct Scene {
   const PatternMesh& reference_mesh;
   const FittingMap& reference_fit;
   const Body& target_body;
+  const GarmentMirrors& mirrors;
 };
 
 // One pass: the pattern that would make `shape` fit as on the reference body, and how it really drapes.
 DerivedPattern derive_and_drape(const Scene& scene, const Drape& shape, const DerivePatternOptions& derive_options,
                                 const DrapeOptions& drape_options, Progress* progress) {
   DerivedPattern pass;
-  pass.derivation =
-      derive_pattern(scene.pattern, scene.reference_mesh, scene.reference_fit, shape, derive_options, progress);
+  pass.derivation = derive_pattern(scene.pattern, scene.reference_mesh, scene.reference_fit, shape, scene.mirrors,
+                                   derive_options, progress);
+  DrawnTarget target = draw_target(scene.pattern, scene.reference_mesh, scene.reference_fit, shape,
+                                   pass.derivation.rest, scene.mirrors, derive_options, progress);
+  pass.drawn = std::move(target.drawn);
+  pass.kept_change = target.kept_change;
+  pass.held_back = std::move(target.held_back);
+  pass.derivation.flipped_triangles = target.inside.flipped_triangles;
   pass.mesh = scene.reference_mesh;
-  pass.mesh.rest = pass.derivation.rest;
+  pass.mesh.rest = std::move(target.inside.rest);
   pass.drape = drape_from(scene.pattern, pass.mesh, scene.target_body, shape, drape_options, progress);
   pass.fit = build_fitting_map(pass.mesh, pass.drape.drape);
   pass.rms_stretch_error = compare_fits(scene.reference_mesh, scene.reference_fit, pass.fit).whole.rms_stretch;
@@ -31,9 +38,10 @@ DerivedPattern derive_and_drape(const Scene& scene, const Drape& shape, const De
 
 DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& reference_mesh,
                               const FittingMap& reference_fit, const Body& target_body, const Drape& transported,
-                              const DerivePatternOptions& derive_options, const DrapeOptions& drape_options,
-                              const DeriveInLoopOptions& options, Progress* progress) {
-  const Scene scene{pattern, reference_mesh, reference_fit, target_body};
+                              const GarmentMirrors& mirrors, const DerivePatternOptions& derive_options,
+                              const DrapeOptions& drape_options, const DeriveInLoopOptions& options,
+                              Progress* progress) {
+  const Scene scene{pattern, reference_mesh, reference_fit, target_body, mirrors};
   DerivedPattern best = derive_and_drape(scene, transported, derive_options, drape_options, progress);
   std::vector<double> errors = {best.rms_stretch_error};
   while (static_cast<int>(errors.size()) < options.max_passes && best.rms_stretch_error > options.good_enough) {

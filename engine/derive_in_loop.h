@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Derivation with physics in the loop: derive a pattern, drape it, and derive again from that drape while the fit gets
-// nearer to the reference.
+// Derivation with physics in the loop: derive a pattern, draw it with the original's edges, drape what is drawn, and
+// derive again from that drape while the fit gets nearer to the reference.
 //
 // The first pass inverts the transported drape, which no physics has relaxed yet; each later pass inverts the drape of
 // the pattern before it. The pass with the smallest rms stretch error is kept.
@@ -8,8 +8,8 @@
 // section 4.
 #pragma once
 
+#include "engine/draw_target.h"
 #include "engine/stages/compare_fits.h"
-#include "engine/stages/derive_pattern.h"
 #include "engine/stages/drape.h"
 
 namespace toile {
@@ -21,18 +21,22 @@ struct DeriveInLoopOptions {
 };
 
 struct DerivedPattern {
-  PatternMesh mesh;  // the reference mesh with `rest` at the target pattern
+  FitPatternEdgesResult drawn;  // the target pattern with the edges of the original
+  PatternMesh mesh;             // the reference mesh with `rest` on it: vertices along edges lie on the drawn edges
   DrapeResult drape;
   FittingMap fit;
   double rms_stretch_error = 0.0;   // against the reference fit
   std::vector<double> pass_errors;  // of every pass tried, in order
   DerivePatternResult derivation;   // of the pass that is kept
+  double kept_change = 1.0;         // below 1: this share of the change was kept of the panels held back
+  std::vector<int> held_back;       // panels that would have overlapped themselves otherwise
 };
 
-// Requires and throws what derive_pattern and drape_from do.
+// Requires and throws what derive_pattern and drape_from do. `mirrors`: empty for a pattern that need not be symmetric.
 DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& reference_mesh,
                               const FittingMap& reference_fit, const Body& target_body, const Drape& transported,
-                              const DerivePatternOptions& derive_options, const DrapeOptions& drape_options,
-                              const DeriveInLoopOptions& options = {}, Progress* progress = nullptr);
+                              const GarmentMirrors& mirrors, const DerivePatternOptions& derive_options,
+                              const DrapeOptions& drape_options, const DeriveInLoopOptions& options = {},
+                              Progress* progress = nullptr);
 
 }  // namespace toile

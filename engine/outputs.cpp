@@ -199,7 +199,7 @@ std::vector<OutputFile> drape_outputs(const DrapedGarment& draped, const AlterOp
 std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& options, const JobInfo& info) {
   const Pattern& pattern = r.reference.pattern;
   const PatternMesh& mesh = r.reference.mesh;
-  const Pattern& target_pattern = r.target_pattern.pattern;
+  const Pattern& target_pattern = r.derived.drawn.pattern;
   const Drawing drawing = draw_alteration(pattern, r.altered);
   const Ticket ticket = named_ticket(r, info);
   const std::vector<BodyZone> zones = body_zones(pattern, mesh, r.reference.drape.drape, r.reference.body);
@@ -290,7 +290,7 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
       .add("transport_garment", r.transported.diagnostics)
       .add("target_drape_before", drape_record(r.before))
       .add("derive_pattern", derivation_record(r.derived))
-      .add("fit_pattern_edges", edges_record(r.target_pattern))
+      .add("fit_pattern_edges", edges_record(r.derived.drawn))
       .add("alter_pattern", alteration_record(r.altered));
   if (r.after) stages.add("drape_altered", after_record(*r.after));
   Record bodies;

@@ -50,18 +50,20 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   const auto transported = runner.run("transport_garment", 2, key_of(reference.key, registered.key), [&] {
     return transport_garment(mesh, worn.drape, wearer, target.value, registered.value.map, {}, runner.progress());
   });
-  const auto before = runner.run("drape_before", 3, key_of(transported.key, drape_options), [&] {
+  const auto before = runner.run("drape_before", 2, key_of(transported.key, drape_options), [&] {
     return drape_from(pattern, mesh, target.value, transported.value.drape, drape_options, runner.progress());
   });
-  const auto derived = runner.run("derive_pattern", 3, key_of(transported.key, derive_options, loop_options), [&] {
-    return derive_in_loop(pattern, mesh, fit, target.value, transported.value.drape, derive_options, drape_options,
-                          loop_options, runner.progress());
-  });
-  const auto drawn = runner.run("fit_pattern_edges", 1, derived.key,
-                                [&] { return fit_pattern_edges(pattern, mesh, derived.value.mesh.rest); });
+  const auto plane = mirror_plane_of(options, pattern);
+  const auto derived =
+      runner.run("derive_pattern", 3, key_of(transported.key, derive_options, loop_options, plane), [&] {
+        const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
+        return derive_in_loop(pattern, mesh, fit, target.value, transported.value.drape, mirrors, derive_options,
+                              drape_options, loop_options, runner.progress());
+      });
+
   FittingMap fit_before = build_fitting_map(mesh, before.value.drape);
   return {{std::move(reference.value), target.value, registered.value, transported.value, before.value,
-           std::move(fit_before), derived.value, drawn.value},
+           std::move(fit_before), derived.value},
           derived.key};
 }
 

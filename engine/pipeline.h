@@ -15,7 +15,6 @@
 #include "engine/stages/build_fitting_map.h"
 #include "engine/stages/compare_fits.h"
 #include "engine/stages/drape.h"
-#include "engine/stages/fit_pattern_edges.h"
 #include "engine/stages/register_bodies.h"
 #include "engine/stages/transport_garment.h"
 
@@ -38,8 +37,7 @@ struct DerivedGarment {
   TransportGarmentResult transported;
   DrapeResult before;  // the garment as it is, on the target body
   FittingMap fit_before;
-  DerivedPattern derived;                // the ideal pattern and its drape on the target body
-  FitPatternEdgesResult target_pattern;  // the ideal pattern drawn with the edges of the original
+  DerivedPattern derived;  // the ideal pattern and its drape on the target body
 };
 
 struct AlterResult : DerivedGarment {
@@ -48,7 +46,7 @@ struct AlterResult : DerivedGarment {
 };
 
 // How many stages a runner of each goes through, for its share of the progress.
-inline constexpr int kDrapeStages = 4, kDeriveStages = 10, kAlterStages = 12;
+inline constexpr int kDrapeStages = 4, kDeriveStages = 9, kAlterStages = 11;
 
 // Whether an output that is asked for shows the altered garment on the target body.
 bool wants_after(const AlterOptions& options);

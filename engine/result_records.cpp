@@ -82,16 +82,39 @@ Record fit_record(const Pattern& pattern, const FitComparison& comparison) {
   return record;
 }
 
+namespace {
+
+// What the energy was after every sweep, as parallel rows.
+Record sweeps_record(const std::vector<DeriveSweep>& sweeps) {
+  std::vector<double> weight, energy, fit, seam;
+  for (const DeriveSweep& sweep : sweeps) {
+    weight.push_back(sweep.edge_weight);
+    energy.push_back(sweep.energy);
+    fit.push_back(sweep.fit_residual);
+    seam.push_back(sweep.seam_residual * kMmPerMetre);
+  }
+  return Record()
+      .add("edge_weight", Record::Value(weight))
+      .add("energy_m2", Record::Value(energy))
+      .add("fit_residual", Record::Value(fit))
+      .add("seam_residual_mm", Record::Value(seam));
+}
+
+}  // namespace
+
 Record derivation_record(const DerivedPattern& derived) {
   const DerivePatternResult& d = derived.derivation;
   Record record;
   record.add("rms_stretch_error", derived.rms_stretch_error)
       .add("pass_errors", Record::Value(derived.pass_errors))
       .add("sweeps", static_cast<int>(d.sweeps.size()))
+      .add("sweep_energies", sweeps_record(d.sweeps))
       .add("converged", d.converged)
       .add("fit_residual", d.fit_residual)
       .add("seam_residual_mm", d.seam_residual * kMmPerMetre)
       .add("flipped_triangles", d.flipped_triangles)
+      .add("held_back_panels", static_cast<int>(derived.held_back.size()))
+      .add("kept_change", derived.kept_change)
       .add("drape", drape_record(derived.drape));
   return record;
 }

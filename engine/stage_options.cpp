@@ -12,7 +12,6 @@ MeshPanelsOptions mesh_options_of(const AlterOptions& options) {
 DrapeOptions drape_options_of(const AlterOptions& options) {
   DrapeOptions drape;
   drape.solver = options.solver;
-  drape.self_contact = options.self_contact;
   drape.fibre_slack = options.fibre_slack;
   drape.shear_limit_deg = options.shear_limit_deg;
   return drape;
@@ -20,6 +19,13 @@ DrapeOptions drape_options_of(const AlterOptions& options) {
 
 DerivePatternOptions derive_options_of(const AlterOptions&) {
   return {};
+}
+
+std::optional<MirrorPlane> mirror_plane_of(const AlterOptions& options, const Pattern& pattern) {
+  if (options.symmetry == SymmetryMode::Off) return std::nullopt;
+  if (pattern.symmetry == Pattern::Symmetry::Plane) return pattern.symmetry_plane;
+  if (pattern.symmetry == Pattern::Symmetry::None && options.symmetry == SymmetryMode::Auto) return std::nullopt;
+  return kMidPlane;
 }
 
 DeriveInLoopOptions loop_options_of(const AlterOptions& options) {

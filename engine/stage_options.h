@@ -12,6 +12,8 @@ namespace toile {
 MeshPanelsOptions mesh_options_of(const AlterOptions& options);
 DrapeOptions drape_options_of(const AlterOptions& options);
 DerivePatternOptions derive_options_of(const AlterOptions& options);
+// The plane whose two sides of the pattern are kept alike; empty: they need not be.
+std::optional<MirrorPlane> mirror_plane_of(const AlterOptions& options, const Pattern& pattern);
 DeriveInLoopOptions loop_options_of(const AlterOptions& options);
 AlterPatternOptions alter_options_of(const AlterOptions& options);
 

@@ -2,6 +2,7 @@
 #include "engine/geometry/fit_curve.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +12,12 @@ namespace {
 
 constexpr int kFitRounds = 20;
 constexpr double kGuessWeight = 1e-6;  // of the guess against one point, in the least squares over control points
-constexpr double kSlideWeight = 0.01;  // of a point's offset along the curve, against the offset across it
+// Of a point's offset along the curve, against the offset across it: the first converges fast, but may leave the points
+// in a loop between two of them; the second is plain least squares.
+constexpr std::array<double, 2> kSlideWeights = {0.01, 1.0};
+constexpr double kDetour = 1.1;  // times the chord between two points: what a curve may walk between them
+constexpr int kDetourChords = 4;
+constexpr double kLeastReach = 0.05;  // of the chord: control points on a given direction are no nearer to their end
 constexpr int kProjectionSteps = 8;
 constexpr int kArcSteps = 60;
 
@@ -41,11 +47,38 @@ double project_on_bezier(const Curve& curve, const Vec2& point, double t) {
   return t;
 }
 
+// Minimum of x^T normal x / 2 - right^T x over the two control points x of a cubic, each free or on a line through its
+// end.
+Eigen::Vector4d along_directions(const Curve& curve, const Eigen::Matrix4d& normal, const Eigen::Vector4d& right,
+                                 const EndDirections& directions) {
+  if (!directions.start && !directions.end) return normal.ldlt().solve(right);
+  Eigen::Vector4d origin = Eigen::Vector4d::Zero();
+  Eigen::MatrixXd ways = Eigen::MatrixXd::Zero(4, (directions.start ? 1 : 2) + (directions.end ? 1 : 2));
+  const Eigen::Index last = ways.cols() - 1;
+  if (directions.start) {
+    origin.head<2>() = curve.start;
+    ways.block<2, 1>(0, 0) = *directions.start;
+  } else {
+    ways.block<2, 2>(0, 0).setIdentity();
+  }
+  if (directions.end) {
+    origin.tail<2>() = curve.end;
+    ways.block<2, 1>(2, last) = -*directions.end;
+  } else {
+    ways.block<2, 2>(2, last - 1).setIdentity();
+  }
+  Eigen::VectorXd reach = (ways.transpose() * normal * ways).ldlt().solve(ways.transpose() * (right - normal * origin));
+  const double least = kLeastReach * (curve.end - curve.start).norm();
+  if (directions.start) reach[0] = std::max(reach[0], least);
+  if (directions.end) reach[last] = std::max(reach[last], least);
+  return origin + ways * reach;
+}
+
 // One linear least squares over the control points. Of the offset of each point from the curve the part along the curve
 // counts little: the point may slide there, and the rounds converge as Gauss-Newton does [tangent distance
 // minimisation].
 void solve_control_points(Curve& curve, const std::vector<Vec2>& points, const std::vector<double>& parameters,
-                          const EdgeCurve& guess) {
+                          const EdgeCurve& guess, double slide_weight, const EndDirections& directions) {
   const bool cubic = curve.shape.kind == CurveKind::CubicBezier;
   Eigen::Matrix4d normal = Eigen::Matrix4d::Identity() * kGuessWeight;
   Eigen::Vector4d right;
@@ -56,29 +89,57 @@ void solve_control_points(Curve& curve, const std::vector<Vec2>& points, const s
     const Vec2 fixed =
         cubic ? Vec2(r * r * r * curve.start + t * t * t * curve.end) : Vec2(r * r * curve.start + t * t * curve.end);
     const Vec2 along = curve_derivative(curve, t).normalized();
-    const Mat2 metric = Mat2::Identity() - (1.0 - kSlideWeight) * along * along.transpose();
+    const Mat2 metric = Mat2::Identity() - (1.0 - slide_weight) * along * along.transpose();
     for (int j = 0; j < 2; ++j) {
       for (int k = 0; k < 2; ++k) normal.block<2, 2>(2 * j, 2 * k) += weights[j] * weights[k] * metric;
       right.segment<2>(2 * j) += weights[j] * (metric * (points[i] - fixed));
     }
   }
-  const Eigen::Vector4d solution = normal.ldlt().solve(right);
+  const Eigen::Vector4d solution =
+      cubic ? along_directions(curve, normal, right, directions) : Eigen::Vector4d(normal.ldlt().solve(right));
   curve.shape.control[0] = solution.head<2>();
   if (cubic) curve.shape.control[1] = solution.tail<2>();
 }
 
-CurveFit fit_bezier(const Curve& guess, const std::vector<Vec2>& points, std::vector<double> parameters) {
-  CurveFit best{guess, 1e300};
+// How far the curve strays between neighbouring points: half of what it walks more than it should.
+double detour(const Curve& curve, const std::vector<Vec2>& points, const std::vector<double>& parameters) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i <= points.size(); ++i) {
+    const double from = i == 0 ? 0.0 : parameters[i - 1], to = i == points.size() ? 1.0 : parameters[i];
+    const double chord = ((i == points.size() ? curve.end : points[i]) - (i == 0 ? curve.start : points[i - 1])).norm();
+    double walked = to < from ? 2.0 * chord : 0.0;  // backwards
+    Vec2 last = curve_point(curve, from);
+    for (int k = 1; k <= kDetourChords; ++k) {
+      const Vec2 next = curve_point(curve, from + (to - from) * k / kDetourChords);
+      walked += (next - last).norm();
+      last = next;
+    }
+    worst = std::max(worst, 0.5 * (walked - kDetour * chord));
+  }
+  return worst;
+}
+
+void fit_bezier_from(const Curve& guess, const std::vector<Vec2>& points, std::vector<double> parameters,
+                     double slide_weight, const EndDirections& directions, CurveFit& best) {
   Curve curve = guess;
   for (int round = 0; round < kFitRounds; ++round) {
-    solve_control_points(curve, points, parameters, guess.shape);
+    solve_control_points(curve, points, parameters, guess.shape, slide_weight, directions);
     double deviation = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       parameters[i] = project_on_bezier(curve, points[i], parameters[i]);
       deviation = std::max(deviation, (curve_point(curve, parameters[i]) - points[i]).norm());
     }
+    if (deviation >= best.deviation) continue;
+    deviation = std::max(deviation, detour(curve, points, parameters));
     if (deviation < best.deviation) best = {curve, deviation};
   }
+}
+
+CurveFit fit_bezier(const Curve& guess, const std::vector<Vec2>& points, const std::vector<double>& parameters,
+                    const EndDirections& directions) {
+  CurveFit best{guess, 1e300};
+  for (const double slide_weight : kSlideWeights)
+    fit_bezier_from(guess, points, parameters, slide_weight, directions, best);
   return best;
 }
 
@@ -139,7 +200,8 @@ CurveFit fit_line(const Curve& guess, const std::vector<Vec2>& points) {
 
 }  // namespace
 
-CurveFit fit_curve(const Curve& guess, const std::vector<Vec2>& points, std::vector<double> parameters) {
+CurveFit fit_curve(const Curve& guess, const std::vector<Vec2>& points, const std::vector<double>& parameters,
+                   const EndDirections& directions) {
   switch (guess.shape.kind) {
     case CurveKind::Line: return fit_line(guess, points);
     case CurveKind::Arc: return fit_arc(guess, points);
@@ -148,7 +210,7 @@ CurveFit fit_curve(const Curve& guess, const std::vector<Vec2>& points, std::vec
       fit.curve.shape.points = points;
       return fit;
     }
-    default: return fit_bezier(guess, points, std::move(parameters));
+    default: return fit_bezier(guess, points, parameters, directions);
   }
 }
 

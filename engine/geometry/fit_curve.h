@@ -5,6 +5,7 @@
 // points. Arcs: least squares over the height of the bulge. Same unit in and out.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "engine/geometry/curve.h"
@@ -16,10 +17,16 @@ struct CurveFit {
   double deviation = 0.0;  // largest distance of a point from the curve
 };
 
+// Unit vectors along which a cubic is to leave its start and to reach its end; empty: as fits best.
+struct EndDirections {
+  std::optional<Vec2> start = {}, end = {};
+};
+
 // `guess` gives the kind, the ends and a first shape, which also settles what too few points leave open; `points` are
 // interior points in order from start to end, `parameters` their first parameters t, one each. Polylines take the
-// points.
-CurveFit fit_curve(const Curve& guess, const std::vector<Vec2>& points, std::vector<double> parameters);
+// points; `directions` count for cubics alone.
+CurveFit fit_curve(const Curve& guess, const std::vector<Vec2>& points, const std::vector<double>& parameters,
+                   const EndDirections& directions = {});
 
 // The curve carried along as its two ends move: scaled, turned and shifted, never mirrored.
 Curve carried(const Curve& curve, const Vec2& start, const Vec2& end);

@@ -6,99 +6,55 @@
 
 #include "engine/geometry/fit_curve.h"
 #include "engine/stages/match_seam_lengths.h"
+#include "engine/stages/mirror_drawing.h"
+#include "engine/stages/panel_motion.h"
 
 namespace toile {
 
 namespace {
 
-constexpr double kGrainParallel = 0.02;  // sine of the angle within which an edge runs along the grain: a degree
+// An edge leaves a corner nearly as the cloth about the corner carries it: what the last vertices do otherwise, in the
+// crotch of a noisy scan, say, is no shape to cut. And edges that run on smoothly round a corner still do.
+constexpr double kAbout = 0.06;         // m, of the cloth about a corner
+constexpr double kFarthestTurn = 0.26;  // rad, 15 degrees: how much else the end of an edge may turn
+constexpr double kSmoothCorner = 0.09;  // rad, 5 degrees: a corner that turns less is a smooth joint
+constexpr double kKink = 0.035;         // rad, 2 degrees: what a smooth joint may turn afterwards
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
+double angle_between(const Vec2& from, const Vec2& to) {
+  return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
 }
 
-// How one panel moves: its flat triangles before and after.
-class PanelMotion {
- public:
-  PanelMotion(const PatternMesh& mesh, const Points2& target, int panel)
-      : mesh_(mesh), target_(target), range_(mesh.panels[static_cast<std::size_t>(panel)]) {
-    gradients_.reserve(static_cast<std::size_t>(range_.triangle_end - range_.triangle_begin));
-    for (int f = range_.triangle_begin; f < range_.triangle_end; ++f) gradients_.push_back(gradient(f));
-  }
+Vec2 turned(const Vec2& v, double angle) {
+  return Eigen::Rotation2Dd(angle) * v;
+}
 
-  // Mean deformation round a vertex, weighted by area.
-  Mat2 at_vertex(int v) const {
-    Mat2 sum = Mat2::Zero();
-    double area = 0.0;
-    for (int f = range_.triangle_begin; f < range_.triangle_end; ++f)
-      for (int k = 0; k < 3; ++k)
-        if (mesh_.triangles(f, k) == v) {
-          const double a = area_of(f);
-          sum += a * gradients_[static_cast<std::size_t>(f - range_.triangle_begin)];
-          area += a;
-        }
-    return area > 0 ? Mat2(sum / area) : Mat2(Mat2::Identity());
-  }
-
-  // Where a point of the panel goes, and how its surroundings turn (without stretch).
-  Vec2 moved(const Vec2& point) const {
-    const int f = triangle_at(point);
-    return target_.row(mesh_.triangles(f, 0)).transpose() +
-           gradients_[static_cast<std::size_t>(f - range_.triangle_begin)] * (point - rest(mesh_.triangles(f, 0)));
-  }
-  Mat2 turn_at(const Vec2& point) const {
-    const Mat2& g = gradients_[static_cast<std::size_t>(triangle_at(point) - range_.triangle_begin)];
-    const Vec2 polar(g(0, 0) + g(1, 1), g(1, 0) - g(0, 1));
-    if (polar.norm() == 0.0) return Mat2::Identity();
-    const Vec2 cs = polar.normalized();
-    Mat2 turn;
-    turn << cs.x(), -cs.y(), cs.y(), cs.x();
-    return turn;
-  }
-
- private:
-  Vec2 rest(int v) const { return mesh_.rest.row(v); }
-
-  Mat2 edges(const Points2& points, int f) const {
-    const auto t = mesh_.triangles.row(f);
-    Mat2 m;
-    m.col(0) = (points.row(t[1]) - points.row(t[0])).transpose();
-    m.col(1) = (points.row(t[2]) - points.row(t[0])).transpose();
-    return m;
-  }
-  double area_of(int f) const { return 0.5 * std::abs(edges(mesh_.rest, f).determinant()); }
-  Mat2 gradient(int f) const { return edges(target_, f) * edges(mesh_.rest, f).inverse(); }
-
-  // The triangle that holds the point, or the one it is least outside of.
-  int triangle_at(const Vec2& point) const {
-    int best = range_.triangle_begin;
-    double least = 1e300;
-    for (int f = range_.triangle_begin; f < range_.triangle_end; ++f) {
-      const Vec2 s = edges(mesh_.rest, f).inverse() * (point - rest(mesh_.triangles(f, 0)));
-      const double outside = std::max({-s.x(), -s.y(), s.x() + s.y() - 1.0}) * std::sqrt(area_of(f));
-      if (outside < least) least = outside, best = f;
-      if (least <= 0.0) break;
-    }
-    return best;
-  }
-
-  const PatternMesh& mesh_;
-  const Points2& target_;
-  PanelRange range_;
-  std::vector<Mat2> gradients_;
-};
+// `way`, but no farther than kFarthestTurn from `expected`; empty if it is near enough.
+std::optional<Vec2> corrected(const Vec2& way, const Vec2& expected) {
+  const double turn = angle_between(expected, way);
+  if (std::abs(turn) <= kFarthestTurn) return std::nullopt;
+  return turned(expected.normalized(), std::copysign(kFarthestTurn, turn));
+}
 
 class EdgeFitter {
  public:
-  EdgeFitter(const Pattern& original, const PatternMesh& mesh, const Points2& target,
+  EdgeFitter(const Pattern& original, const PatternMesh& mesh, const Points2& target, const GarmentMirrors& mirrors,
              const FitPatternEdgesOptions& options)
-      : original_(original), mesh_(mesh), target_(target), options_(options) {
+      : original_(original),
+        mesh_(mesh),
+        target_(target),
+        mirrors_(mirrors),
+        options_(options),
+        rules_(side_rules(original, mirrors, options.keep_straight)) {
     result_.pattern = original;
   }
 
   FitPatternEdgesResult run() {
     for (int p = 0; p < static_cast<int>(original_.panels.size()); ++p) fit_panel(p);
-    if (options_.keep_seam_ratios) match_seam_lengths(result_.pattern, seam_ratios());
+    mirror_drawing(mesh_, mirrors_, target_, result_.pattern);
+    if (options_.keep_seam_ratios) {
+      match_seam_lengths(result_.pattern, seam_ratios(), rules_);
+      mirror_drawing(mesh_, mirrors_, target_, result_.pattern);  // equal again, to the last bit
+    }
     measure();
     return std::move(result_);
   }
@@ -127,52 +83,87 @@ class EdgeFitter {
       corner = target(v);
       if (offset.norm() > 1e-9) corner += motion.at_vertex(v) * offset;
     }
-    for (int e = 0; e < before.edge_count(); ++e) {
-      const Curve shape = fit_edge(p, e);
-      after.edges[static_cast<std::size_t>(e)].curve = shape.shape;
-    }
+    std::vector<EndDirections> directions(before.edges.size());
+    for (int e = 0; e < before.edge_count(); ++e)
+      after.edges[static_cast<std::size_t>(e)].curve =
+          fit_edge(p, e, motion, directions[static_cast<std::size_t>(e)]).shape;
+    if (options_.smooth_corners) smooth_corners(p, std::move(directions));
     move_marks(before, motion, p, after);
   }
 
-  bool must_stay_straight(int p, int e) const {
-    const PanelEdge& edge = original_.panels[static_cast<std::size_t>(p)].edges[static_cast<std::size_t>(e)];
-    if (edge.curve.kind != CurveKind::Line) return false;
-    if (edge.straight) return *edge.straight;
-    if (!options_.keep_straight) return false;
-    return edge.on_fold || edge.hem.has_value() || is_free(p, e) || runs_along_grain(p, e);
-  }
+  const SideRule& rule(int p, int e) const { return rules_[static_cast<std::size_t>(p)][static_cast<std::size_t>(e)]; }
 
-  bool is_free(int p, int e) const {
-    const SeamSide side{PanelId(p), e};
-    return std::none_of(original_.seams.begin(), original_.seams.end(),
-                        [&](const Seam& seam) { return seam.a == side || seam.b == side; });
-  }
+  bool keeps_shape(int p, int e) const { return rule(p, e).straight || rule(p, e).locked; }
 
-  bool runs_along_grain(int p, int e) const {
-    const Panel& panel = original_.panels[static_cast<std::size_t>(p)];
-    const Vec2 grain = panel.grainline ? Vec2((*panel.grainline)[1] - (*panel.grainline)[0]) : Vec2(0, 1);
-    const Vec2 way = panel.edge_end(e) - panel.edge_start(e);
-    return std::abs(cross(grain.normalized(), way.normalized())) < kGrainParallel;
-  }
-
-  Curve fit_edge(int p, int e) {
+  Curve fit_edge(int p, int e, const PanelMotion& motion, EndDirections& directions) {
     const Curve before = edge_curve(original_.panels[static_cast<std::size_t>(p)], e);
     const Panel& after = result_.pattern.panels[static_cast<std::size_t>(p)];
     const Curve guess = carried(before, after.edge_start(e), after.edge_end(e));
     const std::vector<Vec2> points = inner_points(p, e);
-    if (points.empty() || must_stay_straight(p, e)) return guess;
+    if (points.empty() || keeps_shape(p, e)) return guess;
     const CurveFit fit = fit_curve(guess, points, original_parameters(before, p, e));
-    if (fit.deviation <= options_.tolerance) return fit.curve;
-    const CurveFit bent = fit_curve(as_cubic(fit.curve), points, original_parameters(as_cubic(before), p, e));
-    if (bent.deviation > options_.tolerance) {
+    directions = directions_for(before, fit.curve, motion);
+    if (fit.deviation <= options_.tolerance && !directions.start && !directions.end) return fit.curve;
+    const CurveFit free = fit_cubic(p, e, {});
+    directions = directions_for(before, free.curve, motion);
+    const CurveFit bent = directions.start || directions.end ? fit_cubic(p, e, directions) : free;
+    if (bent.deviation > options_.cubic_tolerance) {
       ++result_.polyline_edges;
       Curve chain = bent.curve;
       chain.shape.kind = CurveKind::Polyline;
       chain.shape.points = points;
       return chain;
     }
-    ++result_.bent_edges;
+    if (before.shape.kind != CurveKind::CubicBezier) ++result_.bent_edges;
     return bent.curve;
+  }
+
+  // Corrections of a fitted curve's ends, where the cloth about them says otherwise.
+  EndDirections directions_for(const Curve& before, const Curve& fitted, const PanelMotion& motion) const {
+    if (!options_.smooth_corners || fitted.shape.kind == CurveKind::Polyline) return {};
+    const double about = std::min(kAbout, 0.5 * curve_length(before));
+    const auto correct = [&](double t, const Vec2& corner) {
+      return corrected(curve_derivative(fitted, t), motion.around(corner, about) * curve_derivative(before, t));
+    };
+    return {correct(0.0, before.start), correct(1.0, before.end)};
+  }
+
+  CurveFit fit_cubic(int p, int e, const EndDirections& directions) const {
+    const Curve before = as_cubic(edge_curve(original_.panels[static_cast<std::size_t>(p)], e));
+    const Panel& after = result_.pattern.panels[static_cast<std::size_t>(p)];
+    return fit_curve(carried(before, after.edge_start(e), after.edge_end(e)), inner_points(p, e),
+                     original_parameters(before, p, e), directions);
+  }
+
+  // Where one edge ran on smoothly into the next, both take one direction: that of a straight edge, or their mean.
+  void smooth_corners(int p, std::vector<EndDirections> directions) {
+    const Panel& before = original_.panels[static_cast<std::size_t>(p)];
+    Panel& after = result_.pattern.panels[static_cast<std::size_t>(p)];
+    const int n = before.edge_count();
+    std::vector<bool> again(before.edges.size());
+    for (int in = 0; in < n; ++in) {
+      const int out = (in + 1) % n;
+      const auto turn = [&](const Panel& panel) {
+        return angle_between(curve_derivative(edge_curve(panel, in), 1.0),
+                             curve_derivative(edge_curve(panel, out), 0.0));
+      };
+      const double wanted = turn(before), excess = turn(after) - wanted;
+      const bool in_keeps = keeps_shape(p, in), out_keeps = keeps_shape(p, out);
+      if (std::abs(wanted) > kSmoothCorner || std::abs(excess) < kKink || (in_keeps && out_keeps)) continue;
+      const double share = in_keeps ? 0.0 : out_keeps ? 1.0 : 0.5;
+      const Vec2 way = turned(curve_derivative(edge_curve(after, in), 1.0).normalized(), share * excess);
+      directions[static_cast<std::size_t>(in)].end = way;
+      directions[static_cast<std::size_t>(out)].start = turned(way, wanted);
+      if (!in_keeps) again[static_cast<std::size_t>(in)] = true;
+      if (!out_keeps) again[static_cast<std::size_t>(out)] = true;
+    }
+    for (int e = 0; e < n; ++e) {
+      EdgeCurve& curve = after.edges[static_cast<std::size_t>(e)].curve;
+      if (!again[static_cast<std::size_t>(e)] || inner_points(p, e).empty() || curve.kind == CurveKind::Polyline)
+        continue;
+      if (curve.kind != CurveKind::CubicBezier) ++result_.bent_edges;
+      curve = fit_cubic(p, e, directions[static_cast<std::size_t>(e)]).curve.shape;
+    }
   }
 
   // Parameters of the inner mesh vertices on the original edge.
@@ -257,15 +248,17 @@ class EdgeFitter {
   const Pattern& original_;
   const PatternMesh& mesh_;
   const Points2& target_;
+  const GarmentMirrors& mirrors_;
   const FitPatternEdgesOptions& options_;
+  SideRules rules_;
   FitPatternEdgesResult result_;
 };
 
 }  // namespace
 
 FitPatternEdgesResult fit_pattern_edges(const Pattern& original, const PatternMesh& mesh, const Points2& target_rest,
-                                        const FitPatternEdgesOptions& options) {
-  return EdgeFitter(original, mesh, target_rest, options).run();
+                                        const GarmentMirrors& mirrors, const FitPatternEdgesOptions& options) {
+  return EdgeFitter(original, mesh, target_rest, mirrors, options).run();
 }
 
 }  // namespace toile

@@ -2,21 +2,22 @@
 // Draw a moved pattern mesh as a pattern again: the original panels with their corners and curves carried along.
 //
 // Every edge keeps its type (line, Bézier, arc) and its place in the numbering; its curve is fitted to where the mesh
-// vertices along it went. Hems, fold lines and edges along the grain stay straight when they were (or as labelled);
-// another edge that its type cannot follow within the tolerance becomes a cubic Bézier, or at worst a polyline. Then
-// the least change of corners and curves restores the length ratio of sewn sides. Notches, grainlines and keep-out
-// regions follow. Source: design note "derive", item fabricability. Lengths in metres.
+// vertices along it went. Hems, darts, fold lines and edges along the grain stay straight when they were (or as
+// labelled); another edge that its type cannot follow within the tolerance becomes a cubic Bézier, or at worst a
+// polyline. Then the least change of corners and curves restores the length ratio of sewn sides. Mirror images are
+// drawn as mirror images. Notches, grainlines and keep-out regions follow.  Lengths in metres.
 #pragma once
 
-#include "engine/core/pattern.h"
-#include "engine/core/pattern_mesh.h"
+#include "engine/stages/garment_mirrors.h"
 
 namespace toile {
 
 struct FitPatternEdgesOptions {
-  double tolerance = 0.5e-3;  // m; a fitted edge may pass its mesh vertices this far away, > 0
+  double tolerance = 0.5e-3;       // m; an edge keeps its type if it passes its mesh vertices this near, > 0
+  double cubic_tolerance = 30e-3;  // m; as a cubic it may pass them this far away before it becomes a polyline, > 0
   bool keep_straight =
-      true;  // straight hems, folds and grain-parallel edges stay straight however far their vertices went
+      true;  // straight hems, darts, folds and edges along the grain stay so wherever their vertices went
+  bool smooth_corners = true;    // edges leave corners as the cloth there is carried, and run on where they ran on
   bool keep_seam_ratios = true;  // sewn sides keep the ratio of their lengths
 };
 
@@ -29,9 +30,9 @@ struct FitPatternEdgesResult {
   int polyline_edges = 0;                      // edges that no cubic could follow: a polyline through the mesh vertices
 };
 
-// Requires: `mesh` is the mesh of `original`; `target_rest` (#V x 2) are its moved rest positions.
-// Ensures: the same panels, edges, seams and labels in the same order.
+// Requires: `mesh` is the mesh of `original`; `target_rest` (#V x 2) are its moved rest positions; `mirrors` of both,
+// or empty. Ensures: the same panels, edges, seams and labels in the same order.
 FitPatternEdgesResult fit_pattern_edges(const Pattern& original, const PatternMesh& mesh, const Points2& target_rest,
-                                        const FitPatternEdgesOptions& options = {});
+                                        const GarmentMirrors& mirrors = {}, const FitPatternEdgesOptions& options = {});
 
 }  // namespace toile

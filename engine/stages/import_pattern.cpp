@@ -6,19 +6,16 @@
 #include <map>
 
 #include "engine/geometry/curve.h"
-#include "engine/geometry/self_crossing.h"
 #include "engine/io/garmentcode_json.h"
 #include "engine/io/obj_garment.h"
+#include "engine/stages/outline_crossing.h"
 
 namespace toile {
 
 namespace {
 
-constexpr double kShortestEdge = 1e-5;      // m; a hundredth of a millimetre: shorter is a drawing mistake
-constexpr double kSmallestPanel = 1e-5;     // m^2; 10 mm^2
-constexpr double kTouchTolerance = 1e-7;    // m; closer than this two parts of an outline count as touching
-constexpr double kFlattenTolerance = 2e-5;  // m; chords against curves in the crossing test
-constexpr int kMostChordsPerEdge = 256;
+constexpr double kShortestEdge = 1e-5;   // m; a hundredth of a millimetre: shorter is a drawing mistake
+constexpr double kSmallestPanel = 1e-5;  // m^2; 10 mm^2
 
 std::string escaped(const std::string& key) {
   std::string step;
@@ -62,25 +59,13 @@ void check_edges(const Panel& panel) {
 }
 
 void check_simple(const Panel& panel) {
-  std::vector<Vec2> polygon;
-  std::vector<int> edge_of_segment;
-  for (int e = 0; e < panel.edge_count(); ++e) {
-    std::vector<Vec2> points = flatten_curve(edge_curve(panel, e), kFlattenTolerance);
-    if (points.size() > kMostChordsPerEdge &&
-        panel.edges[static_cast<std::size_t>(e)].curve.kind != CurveKind::Polyline)
-      points = sample_curve(edge_curve(panel, e), kMostChordsPerEdge);
-    polygon.insert(polygon.end(), points.begin(), points.end() - 1);
-    edge_of_segment.resize(polygon.size(), e);
-  }
-  const auto crossing = find_self_crossing(polygon, kTouchTolerance);
+  const auto crossing = find_outline_crossing(panel);
   if (!crossing) return;
-  const int first = edge_of_segment[static_cast<std::size_t>(crossing->first)];
-  const int second = edge_of_segment[static_cast<std::size_t>(crossing->second)];
-  const Vec2 place = polygon[static_cast<std::size_t>(crossing->first)];
-  throw Error(ErrorCode::GarmentInvalid, edge_pointer(panel, second),
-              "the outline of panel \"" + panel.name + "\" crosses or touches itself: edge " + std::to_string(first) +
-                  " and edge " + std::to_string(second) + " meet near (" + centimetres(place.x()) + ", " +
-                  centimetres(place.y()) + "); move the corners or curve points apart");
+  throw Error(ErrorCode::GarmentInvalid, edge_pointer(panel, crossing->second_edge),
+              "the outline of panel \"" + panel.name + "\" crosses or touches itself: edge " +
+                  std::to_string(crossing->first_edge) + " and edge " + std::to_string(crossing->second_edge) +
+                  " meet near (" + centimetres(crossing->place.x()) + ", " + centimetres(crossing->place.y()) +
+                  "); move the corners or curve points apart");
 }
 
 void check_panel(const Panel& panel) {

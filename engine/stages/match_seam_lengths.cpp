@@ -22,17 +22,17 @@ constexpr double kLongestStep = 2e-3;     // m; what is off by more is not a rou
 // Every coordinate that may move, as a pointer into the pattern.
 class Unknowns {
  public:
-  explicit Unknowns(Pattern& pattern) {
-    for (Panel& panel : pattern.panels) {
+  Unknowns(Pattern& pattern, const SideRules& rules) {
+    for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+      Panel& panel = pattern.panels[p];
       const std::size_t n = panel.edges.size();
       std::vector<int> corner(n, -1);
       for (std::size_t c = 0; c < n; ++c) {
-        const bool held = panel.locked || panel.edges[c].locked || panel.edges[(c + n - 1) % n].locked;
-        if (!held) corner[c] = add(panel.corners[c]);
+        if (!rules[p][c].locked && !rules[p][(c + n - 1) % n].locked) corner[c] = add(panel.corners[c]);
       }
       corners_.push_back(std::move(corner));
       shapes_.emplace_back();
-      for (PanelEdge& edge : panel.edges) shapes_.back().push_back(panel.locked || edge.locked ? -1 : add(edge.curve));
+      for (std::size_t e = 0; e < n; ++e) shapes_.back().push_back(rules[p][e].locked ? -1 : add(panel.edges[e].curve));
     }
   }
 
@@ -112,9 +112,9 @@ Eigen::SparseMatrix<double> jacobian(Pattern& pattern, Unknowns& unknowns, const
 
 }  // namespace
 
-double match_seam_lengths(Pattern& pattern, const std::vector<double>& ratios) {
+double match_seam_lengths(Pattern& pattern, const std::vector<double>& ratios, const SideRules& rules) {
   if (ratios.empty()) return 0.0;
-  Unknowns unknowns(pattern);
+  Unknowns unknowns(pattern, rules);
   Eigen::VectorXd c = mismatches(pattern, ratios);
   for (int step = 0; step < kNewtonSteps && c.cwiseAbs().maxCoeff() > kGoodEnough; ++step) {
     const Eigen::SparseMatrix<double> j = jacobian(pattern, unknowns, ratios);

@@ -7,12 +7,12 @@
 
 #include <vector>
 
-#include "engine/core/pattern.h"
+#include "engine/stages/side_rules.h"
 
 namespace toile {
 
-// `ratios[s]` is the wanted length of side a over side b of seam s. Locked panels and edges are not moved. Returns the
+// `ratios[s]` is the wanted length of side a over side b of seam s. Sides that `rules` locks are not moved. Returns the
 // largest remaining mismatch |length_a - ratio * length_b|.
-double match_seam_lengths(Pattern& pattern, const std::vector<double>& ratios);
+double match_seam_lengths(Pattern& pattern, const std::vector<double>& ratios, const SideRules& rules);
 
 }  // namespace toile

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "engine/pipeline.h"
-#include "engine/stage_options.h"
+#include "engine/stages/mesh_panels.h"
 #include "tests/support/shared_data.h"
 
 namespace toile::bench {
@@ -22,14 +22,10 @@ BodyInput body_input(const std::string& name) {
 Points2 derive(const GarmentInput& garment, const AlterPair& pair, int triangles) {
   AlterOptions options;
   options.triangles = triangles;
-  StageRunner runner(nullptr, nullptr, kAlterStages);
-  const auto worn = drape_garment(garment, body_input(test::body_of_garment(pair.garment)), options, runner).value;
-  const Body target = read_body(body_input(pair.body));
-  const BodyMap map = register_bodies(worn.body, target).map;
-  const auto carried = transport_garment(worn.mesh, worn.drape.drape, worn.body, target, map);
-  return derive_in_loop(worn.pattern, worn.mesh, worn.fit, target, carried.drape, derive_options_of(options),
-                        drape_options_of(options), loop_options_of(options))
-      .mesh.rest;
+  StageRunner runner(nullptr, nullptr, kDeriveStages);
+  return derive_garment(garment, body_input(test::body_of_garment(pair.garment)), body_input(pair.body), options,
+                        runner)
+      .value.derived.mesh.rest;
 }
 
 }  // namespace

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// derive [GARMENT...] [--bodies a,b] [--triangles N] [--pictures FOLDER] [--stages FOLDER]: target patterns of garments
-// of ../shared/data on bodies of it: fit and position after draping the target pattern beside those before.
+// derive [trips|growth|random|sweeps] [GARMENT...] [--bodies a,b] [--triangles N] [--count N] [--pictures FOLDER]
+//        [--stages FOLDER] [--asymmetric]: target patterns of garments of ../shared/data on bodies of it.
+// Alone: fit and position after draping the target pattern beside those before, and the gates of both. `trips`: there
+// and back again. `growth`: time without drapes against resolution. `random`: bodies drawn from seeds. `sweeps`:
+// pictures of some sweeps.
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "engine/core/error.h"
-#include "engine/render/drawing_picture.h"
-#include "engine/render/png.h"
-#include "engine/stages/draw_pattern.h"
+#include "engine/stages/outline_crossing.h"
 #include "tests/bench/derive.h"
 #include "tests/support/shared_data.h"
 
@@ -22,39 +20,14 @@ constexpr double kMm = 1e3, kPercent = 100.0;
 constexpr double kLeastFall = 0.75, kGoodStretch = 0.007, kGoodPosition = 8e-3;
 constexpr double kWorseStretch = 0.001, kWorsePosition = 1e-3, kSeamGate = 0.5e-3;
 
-struct Request {
-  std::vector<std::string> garments, bodies;
-  int triangles = 4000;
-  std::string pictures, stages;
-};
-
-std::vector<std::string> words_of(const std::string& list) {
-  std::vector<std::string> words;
-  std::istringstream in(list);
-  for (std::string word; std::getline(in, word, ',');) words.push_back(word);
-  return words;
-}
-
-Request parse(const std::vector<std::string>& words) {
-  Request request;
-  request.bodies = {"ggg_small_female", "ggg_mean_female", "ggg_male_extra", "ggg_large_male", "scan_b"};
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool more = i + 1 < words.size();
-    if (words[i] == "--triangles" && more)
-      request.triangles = std::atoi(words[++i].c_str());
-    else if (words[i] == "--bodies" && more)
-      request.bodies = words_of(words[++i]);
-    else if (words[i] == "--pictures" && more)
-      request.pictures = words[++i];
-    else if (words[i] == "--stages" && more)
-      request.stages = words[++i];
-    else
-      request.garments.push_back(words[i]);
-  }
-  if (request.garments.empty())
-    request.garments = {"leggings_tight", "leggings_zero_ease", "tshirt_fitted",    "pants_straight",
-                        "skirt_pencil",   "dress_sleeveless",   "shirt_darts_long", "sweater_loose_hood"};
-  return request;
+// Which drawn edge stands farthest from where the derivation put its vertices: "panel:edge".
+std::string worst_edge(const DerivedGarment& r) {
+  const FitPatternEdgesResult& drawn = r.derived.drawn;
+  for (std::size_t p = 0; p < drawn.deviation.size(); ++p)
+    for (std::size_t e = 0; e < drawn.deviation[p].size(); ++e)
+      if (drawn.deviation[p][e] == drawn.largest_deviation)
+        return r.reference.pattern.panels[p].name + ":" + std::to_string(e);
+  return "";
 }
 
 struct Outcome {
@@ -70,21 +43,17 @@ Outcome outcome_of(const DerivedGarment& r) {
   o.stretch_after = compare_fits(mesh, r.reference.fit, r.derived.fit).whole.rms_stretch;
   o.position_before = compare_positions(r.transported.drape.nodes, r.before.drape.nodes).rms;
   o.position_after = compare_positions(r.transported.drape.nodes, r.derived.drape.drape.nodes).rms;
-  o.seam = std::max(r.derived.derivation.seam_residual, r.target_pattern.largest_seam_mismatch);
-  o.deviation = r.target_pattern.largest_deviation;
+  o.seam = r.derived.drawn.largest_seam_mismatch;
+  o.deviation = r.derived.drawn.largest_deviation;
   o.flips = r.derived.derivation.flipped_triangles;
-  for (const Panel& panel : r.target_pattern.pattern.panels) o.crossing_panels += crosses_itself(panel);
+  for (const Panel& panel : r.derived.drawn.pattern.panels)
+    o.crossing_panels += find_outline_crossing(panel).has_value();
   return o;
 }
 
-void draw(const Request& request, const std::string& name, const DerivedGarment& r) {
+void draw(const DeriveRequest& request, const std::string& name, const DerivedGarment& r) {
   if (request.pictures.empty()) return;
-  std::filesystem::create_directories(request.pictures);
-  DrawingPictureOptions options;
-  options.title = name;
-  const Bytes png = write_png(draw_picture(draw_changes(r.reference.pattern, r.target_pattern.pattern), options));
-  std::ofstream(request.pictures + "/" + name + ".png", std::ios::binary)
-      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  write_changes(request.pictures, name, r.reference.pattern, r.derived.drawn.pattern);
 }
 
 double median(std::vector<double> values) {
@@ -132,17 +101,13 @@ int summarise(const std::vector<Outcome>& all, int failures) {
 
 }  // namespace
 
-int bench_derive(const Arguments& arguments) {
-  if (!test::has_shared_data()) {
-    std::fprintf(stderr, "toile-bench derive needs ../shared/data\n");
-    return 2;
-  }
-  const Request request = parse(arguments.words);
+namespace {
+
+int derive_pairs(const DeriveRequest& request, const Arguments& arguments) {
   const auto stages = stage_store(request.stages);
-  AlterOptions options;
-  options.triangles = request.triangles;
   Table table({"garment", "body", "stretch before %", "after %", "position before mm", "after mm", "seam mm", "edge mm",
-               "bent", "polylines", "flips", "overlaps", "passes %", "sweeps", "rest", "CPU s"});
+               "worst edge", "bent", "polylines", "flips", "overlaps", "passes %", "held back", "sweeps", "rest",
+               "CPU s"});
   std::vector<Outcome> outcomes;
   int failures = 0;
   for (const std::string& garment : request.garments)
@@ -151,16 +116,20 @@ int bench_derive(const Arguments& arguments) {
       std::fflush(stdout);
       const double start = cpu_seconds();
       try {
-        const DerivedGarment r = derive_pair(garment, body, options, stages.get());
+        const DerivedGarment r = derive_pair(garment, body, request.options, stages.get());
         const Outcome o = outcome_of(r);
         outcomes.push_back(o);
         std::string passes;
         for (const double e : r.derived.pass_errors) passes.append(fixed(kPercent * e, 2)).append(" ");
         table.add({garment, body, fixed(kPercent * o.stretch_before, 2), fixed(kPercent * o.stretch_after, 2),
                    fixed(kMm * o.position_before, 1), fixed(kMm * o.position_after, 1), fixed(kMm * o.seam, 3),
-                   fixed(kMm * o.deviation, 2), std::to_string(r.target_pattern.bent_edges),
-                   std::to_string(r.target_pattern.polyline_edges), std::to_string(o.flips),
-                   std::to_string(o.crossing_panels), passes, std::to_string(r.derived.derivation.sweeps.size()),
+                   fixed(kMm * o.deviation, 2), worst_edge(r), std::to_string(r.derived.drawn.bent_edges),
+                   std::to_string(r.derived.drawn.polyline_edges), std::to_string(o.flips),
+                   std::to_string(o.crossing_panels), passes,
+                   r.derived.held_back.empty()
+                       ? ""
+                       : std::to_string(r.derived.held_back.size()) + " at " + fixed(r.derived.kept_change, 2),
+                   std::to_string(r.derived.derivation.sweeps.size()),
                    std::string(rest_name(r.derived.drape.quality.rest)), fixed(cpu_seconds() - start, 2)});
         draw(request, garment + "_" + body, r);
       } catch (const Error& error) {
@@ -170,6 +139,21 @@ int bench_derive(const Arguments& arguments) {
     }
   table.print(arguments.csv);
   return summarise(outcomes, failures);
+}
+
+}  // namespace
+
+int bench_derive(const Arguments& arguments) {
+  if (!test::has_shared_data()) {
+    std::fprintf(stderr, "toile-bench derive needs ../shared/data\n");
+    return 2;
+  }
+  const DeriveRequest request = derive_request(arguments.words);
+  if (request.what == "trips") return derive_trips(request, arguments);
+  if (request.what == "growth") return derive_growth(request, arguments);
+  if (request.what == "random") return derive_random(request, arguments);
+  if (request.what == "sweeps") return derive_sweeps(request);
+  return derive_pairs(request, arguments);
 }
 
 }  // namespace toile::bench

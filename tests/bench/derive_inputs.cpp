@@ -3,9 +3,11 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <sstream>
 
-#include "engine/geometry/curve.h"
-#include "engine/geometry/self_crossing.h"
+#include "engine/render/drawing_picture.h"
+#include "engine/render/png.h"
+#include "engine/stages/draw_pattern.h"
 #include "tests/bench/derive.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/shared_data.h"
@@ -15,7 +17,7 @@ namespace {
 
 class Stages : public StageCache {
  public:
-  explicit Stages(std::string folder) : folder_(std::move(folder)) {
+  Stages(std::string folder, std::size_t most) : folder_(std::move(folder)), most_(most) {
     if (!folder_.empty()) std::filesystem::create_directories(folder_);
   }
 
@@ -29,7 +31,7 @@ class Stages : public StageCache {
 
   void put(const std::string& key, const Bytes& value) override {
     if (folder_.empty()) {
-      kept_.emplace(key, value);
+      if (kept_.size() < most_) kept_.emplace(key, value);
       return;
     }
     std::ofstream(folder_ + "/" + key, std::ios::binary)
@@ -38,10 +40,72 @@ class Stages : public StageCache {
 
  private:
   std::string folder_;
+  std::size_t most_;
   std::map<std::string, Bytes> kept_;
 };
 
+std::vector<std::string> parts_of(const std::string& list) {
+  std::vector<std::string> parts;
+  std::istringstream in(list);
+  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+// The garments and bodies that each table is asked for, where none are named.
+void fill_in(DeriveRequest& request) {
+  using Names = std::vector<std::string>;
+  const bool pairs = request.what.empty();
+  if (request.garments.empty() && pairs)
+    request.garments = {"leggings_tight", "leggings_zero_ease", "tshirt_fitted",    "pants_straight",
+                        "skirt_pencil",   "dress_sleeveless",   "shirt_darts_long", "sweater_loose_hood"};
+  if (request.garments.empty())
+    request.garments = request.what == "growth" || request.what == "sweeps"
+                           ? Names{"tshirt_fitted"}
+                           : Names{"leggings_tight", "tshirt_fitted", "dress_sleeveless"};
+  if (!request.bodies.empty()) return;
+  if (pairs) request.bodies = {"ggg_small_female", "ggg_mean_female", "ggg_male_extra", "ggg_large_male", "scan_b"};
+  if (request.what == "trips") request.bodies = {"ggg_large_male", "ggg_small_female", "ggg_mean_male"};
+  if (request.bodies.empty()) request.bodies = {"ggg_large_male"};
+}
+
 }  // namespace
+
+DeriveRequest derive_request(const std::vector<std::string>& words) {
+  DeriveRequest request;
+  request.options.triangles = 4000;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    const bool more = i + 1 < words.size();
+    if (word == "trips" || word == "growth" || word == "random" || word == "sweeps")
+      request.what = word;
+    else if (word == "--asymmetric")
+      request.options.symmetry = SymmetryMode::Off;
+    else if (word == "--triangles" && more)
+      request.options.triangles = std::atoi(words[++i].c_str());
+    else if (word == "--count" && more)
+      request.count = std::atoi(words[++i].c_str());
+    else if (word == "--bodies" && more)
+      request.bodies = parts_of(words[++i]);
+    else if (word == "--pictures" && more)
+      request.pictures = words[++i];
+    else if (word == "--stages" && more)
+      request.stages = words[++i];
+    else
+      request.garments.push_back(word);
+  }
+  fill_in(request);
+  return request;
+}
+
+void write_changes(const std::string& folder, const std::string& name, const Pattern& original,
+                   const Pattern& changed) {
+  std::filesystem::create_directories(folder);
+  DrawingPictureOptions options;
+  options.title = name;
+  const Bytes png = write_png(draw_picture(draw_changes(original, changed), options));
+  std::ofstream(folder + "/" + name + ".png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+}
 
 GarmentInput shared_garment(const std::string& name) {
   return {name, test::read_file(test::shared_data("garments/" + name + "_specification.json"))};
@@ -55,8 +119,8 @@ BodyInput shared_wearer(const std::string& name) {
   return body;
 }
 
-std::unique_ptr<StageCache> stage_store(const std::string& folder) {
-  return std::make_unique<Stages>(folder);
+std::unique_ptr<StageCache> stage_store(const std::string& folder, std::size_t most) {
+  return std::make_unique<Stages>(folder, most);
 }
 
 DerivedGarment derive_pair(const std::string& garment, const std::string& body, const AlterOptions& options,
@@ -65,16 +129,6 @@ DerivedGarment derive_pair(const std::string& garment, const std::string& body, 
   return derive_garment(shared_garment(garment), shared_wearer(test::body_of_garment(garment)), shared_wearer(body),
                         options, runner)
       .value;
-}
-
-bool crosses_itself(const Panel& panel) {
-  constexpr double kChords = 2e-5, kTouch = 1e-6;  // m
-  std::vector<Vec2> polygon;
-  for (int e = 0; e < panel.edge_count(); ++e) {
-    const std::vector<Vec2> points = flatten_curve(edge_curve(panel, e), kChords);
-    polygon.insert(polygon.end(), points.begin(), points.end() - 1);
-  }
-  return find_self_crossing(polygon, kTouch).has_value();
 }
 
 }  // namespace toile::bench

@@ -75,7 +75,7 @@ DerivePatternResult derive(const GridGarment& garment, const Shape& reference, c
                            const DerivePatternOptions& options = {}) {
   const FittingMap fit = build_fitting_map(garment.mesh, draped(garment, garment.mesh.rest, reference));
   const Drape drape = draped(garment, garment.mesh.rest, target);
-  DerivePatternResult result = derive_pattern(garment.pattern, garment.mesh, fit, drape, options);
+  DerivePatternResult result = derive_pattern(garment.pattern, garment.mesh, fit, drape, {}, options);
   expect_monotone(result);
   EXPECT_EQ(result.flipped_triangles, 0);
   return result;

@@ -58,9 +58,10 @@ TEST(FitPatternEdges, SmoothDeformationsComeBackAsTheOriginalKindsOfEdges) {
     const Pattern pattern = shared_pattern(name);
     const PatternMesh mesh = mesh_panels(pattern);
     FitPatternEdgesOptions options;
+    options.cubic_tolerance = kTolerance;
     options.keep_straight = false;
     options.keep_seam_ratios = false;
-    const FitPatternEdgesResult result = fit_pattern_edges(pattern, mesh, moved(mesh, motion), options);
+    const FitPatternEdgesResult result = fit_pattern_edges(pattern, mesh, moved(mesh, motion), {}, options);
     bent += result.bent_edges;
     polylines += result.polyline_edges;
     for (const Panel& panel : result.pattern.panels) edges += panel.edge_count();
@@ -85,7 +86,7 @@ TEST(FitPatternEdges, SewnSidesKeepTheirLengthRatio) {
     FitPatternEdgesOptions loose;
     loose.keep_seam_ratios = false;
     const Points2 target = moved(mesh, motion);
-    EXPECT_GT(fit_pattern_edges(pattern, mesh, target, loose).largest_seam_mismatch, 2e-4) << "the case must be one";
+    EXPECT_GT(fit_pattern_edges(pattern, mesh, target, {}, loose).largest_seam_mismatch, 2e-4) << "the case must be one";
     const FitPatternEdgesResult result = fit_pattern_edges(pattern, mesh, target);
     EXPECT_LT(result.largest_seam_mismatch, 1e-5);
     validate_pattern(result.pattern);
