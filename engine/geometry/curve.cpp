@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kLengthIntervals = 16;  // Gauss-Legendre intervals a Bézier is cut into
 constexpr int kFlattenProbe = 16;     // chords that the deviation of a Bézier is first measured with
-constexpr int kMaxFlattenChords = 512;
 
 // Abscissae and weights of 8-point Gauss-Legendre quadrature on [-1, 1] (Abramowitz & Stegun, table 25.4).
 constexpr std::array<double, 4> kGaussX = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
@@ -104,11 +103,11 @@ Vec2 arc_point(const ArcGeometry& arc, double t) {
   return arc.centre + arc.radius * Vec2(std::cos(angle), std::sin(angle));
 }
 
-int chords_for_tolerance(const Curve& curve, double tolerance) {
+int chords_for_tolerance(const Curve& curve, double tolerance, int most) {
   if (curve.shape.kind == CurveKind::Arc) {
     const ArcGeometry arc = arc_geometry(curve);
     const double step = 2.0 * std::acos(std::clamp(1.0 - tolerance / arc.radius, -1.0, 1.0));
-    return step > 0 ? static_cast<int>(std::ceil(std::min(std::abs(arc.sweep) / step, 1.0 * kMaxFlattenChords))) : 1;
+    return step > 0 ? static_cast<int>(std::ceil(std::min(std::abs(arc.sweep) / step, 1.0 * most))) : 1;
   }
   double sag = 0.0;
   for (int i = 0; i < kFlattenProbe; ++i) {
@@ -117,7 +116,7 @@ int chords_for_tolerance(const Curve& curve, double tolerance) {
     sag = std::max(sag, (curve_point(curve, 0.5 * (t0 + t1)) - chord_middle).norm());
   }
   // The sag of a chord falls with the square of their number.
-  return static_cast<int>(std::ceil(std::min(kFlattenProbe * std::sqrt(sag / tolerance), 1.0 * kMaxFlattenChords)));
+  return static_cast<int>(std::ceil(std::min(kFlattenProbe * std::sqrt(sag / tolerance), 1.0 * most)));
 }
 
 }  // namespace
@@ -216,10 +215,10 @@ std::vector<Vec2> sample_curve(const Curve& curve, int segments) {
   return curve_points_at(curve, fractions);
 }
 
-std::vector<Vec2> flatten_curve(const Curve& curve, double tolerance) {
+std::vector<Vec2> flatten_curve(const Curve& curve, double tolerance, int most_chords) {
   if (curve.shape.kind == CurveKind::Line) return {curve.start, curve.end};
   if (curve.shape.kind == CurveKind::Polyline) return polyline_corners(curve);
-  const int chords = std::max(1, chords_for_tolerance(curve, tolerance));
+  const int chords = std::max(1, chords_for_tolerance(curve, tolerance, most_chords));
   std::vector<Vec2> points = {curve.start};
   for (int i = 1; i < chords; ++i) points.push_back(curve_point(curve, static_cast<double>(i) / chords));
   points.push_back(curve.end);

@@ -41,8 +41,11 @@ std::vector<Vec2> curve_points_at(const Curve& curve, const std::vector<double>&
 // The parameters t of the points at these fractions of the arc length.
 std::vector<double> curve_parameters_at(const Curve& curve, const std::vector<double>& fractions);
 
-// Points such that the chain of chords stays within `tolerance` of the curve; both ends included.
-std::vector<Vec2> flatten_curve(const Curve& curve, double tolerance);
+inline constexpr int kMostFlattenChords = 512;
+
+// Points such that the chain of chords stays within `tolerance` of the curve; both ends included. Of a Bézier or arc at
+// most `most_chords` chords, evenly spaced in t: one that needs more is met less closely.
+std::vector<Vec2> flatten_curve(const Curve& curve, double tolerance, int most_chords = kMostFlattenChords);
 
 // Half the integral of (x dy - y dx) along the curve: summed round a closed outline it is the signed area.
 double curve_signed_area(const Curve& curve);

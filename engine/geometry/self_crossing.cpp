@@ -39,47 +39,59 @@ bool run_back(const Segment& s, const Segment& q, double tolerance) {
                                                   : distance_to_segment(s.a, q) <= tolerance;
 }
 
+// The segments of a polygon in the order of a sweep along the longer side of the bounding box.
+struct Sweep {
+  std::vector<Segment> segments;
+  std::vector<int> order;
+  int axis = 0;
+
+  explicit Sweep(const std::vector<Vec2>& polygon) {
+    Vec2 low = polygon.front(), high = polygon.front();
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      segments.push_back({polygon[i], polygon[(i + 1) % polygon.size()]});
+      low = low.cwiseMin(polygon[i]);
+      high = high.cwiseMax(polygon[i]);
+    }
+    axis = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
+    order.resize(segments.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](int i, int j) { return std::pair(least(i, axis), i) < std::pair(least(j, axis), j); });
+  }
+
+  const Segment& segment(int i) const { return segments[static_cast<std::size_t>(i)]; }
+  double least(int i, int k) const { return std::min(segment(i).a[k], segment(i).b[k]); }
+  double most(int i, int k) const { return std::max(segment(i).a[k], segment(i).b[k]); }
+
+  bool is_bad_pair(int before, int after, double tolerance) const {
+    const int across = 1 - axis;
+    if (least(before, across) > most(after, across) + tolerance ||
+        least(after, across) > most(before, across) + tolerance)
+      return false;
+    if (after == before + 1) return run_back(segment(before), segment(after), tolerance);
+    if (before == 0 && after + 1 == static_cast<int>(segments.size()))
+      return run_back(segment(after), segment(before), tolerance);
+    return cross_or_touch(segment(before), segment(after), tolerance);
+  }
+};
+
 }  // namespace
 
-std::optional<std::pair<int, int>> find_self_crossing(const std::vector<Vec2>& polygon, double tolerance) {
-  const int n = static_cast<int>(polygon.size());
-  std::vector<Segment> segments;
-  Vec2 low = polygon.front(), high = polygon.front();
-  for (int i = 0; i < n; ++i) {
-    segments.push_back({polygon[static_cast<std::size_t>(i)], polygon[static_cast<std::size_t>((i + 1) % n)]});
-    low = low.cwiseMin(segments.back().a);
-    high = high.cwiseMax(segments.back().a);
-  }
-  // Sweep along the longer side of the bounding box; only segments that overlap there are compared.
-  const int axis = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
-  const auto least = [&](const Segment& s, int k) { return std::min(s.a[k], s.b[k]); };
-  const auto most = [&](const Segment& s, int k) { return std::max(s.a[k], s.b[k]); };
-  std::vector<int> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int i, int j) {
-    return std::pair(least(segments[static_cast<std::size_t>(i)], axis), i) <
-           std::pair(least(segments[static_cast<std::size_t>(j)], axis), j);
-  });
-  std::optional<std::pair<int, int>> first;
+std::optional<std::pair<int, int>> find_self_crossing(const std::vector<Vec2>& polygon, double tolerance,
+                                                      std::int64_t* comparisons_left) {
+  const Sweep sweep(polygon);
   std::vector<int> active;
-  for (const int i : order) {
-    const Segment& s = segments[static_cast<std::size_t>(i)];
-    std::erase_if(
-        active, [&](int j) { return most(segments[static_cast<std::size_t>(j)], axis) < least(s, axis) - tolerance; });
+  for (const int i : sweep.order) {
+    if (comparisons_left && (*comparisons_left -= static_cast<std::int64_t>(active.size())) < 0) return std::nullopt;
+    const double reached = sweep.least(i, sweep.axis) - tolerance;
+    std::erase_if(active, [&](int j) { return sweep.most(j, sweep.axis) < reached; });
     for (const int j : active) {
-      const Segment& q = segments[static_cast<std::size_t>(j)];
-      if (least(s, 1 - axis) > most(q, 1 - axis) + tolerance || least(q, 1 - axis) > most(s, 1 - axis) + tolerance)
-        continue;
-      const int before = std::min(i, j), after = std::max(i, j);
-      const bool follows = after == before + 1, closes = before == 0 && after == n - 1;
-      const Segment& s0 = segments[static_cast<std::size_t>(closes ? after : before)];
-      const Segment& s1 = segments[static_cast<std::size_t>(closes ? before : after)];
-      const bool bad = follows || closes ? run_back(s0, s1, tolerance) : cross_or_touch(s, q, tolerance);
-      if (bad && (!first || std::pair(before, after) < *first)) first = {before, after};
+      const auto [before, after] = std::minmax(i, j);
+      if (sweep.is_bad_pair(before, after, tolerance)) return std::pair(before, after);
     }
     active.push_back(i);
   }
-  return first;
+  return std::nullopt;
 }
 
 }  // namespace toile

@@ -37,22 +37,68 @@ std::string short_number(double value) {
   return text;
 }
 
+// Depth, number of values and length of texts, before anything is allocated for them. Counts are those of a valid
+// document; of broken ones the parser will say more. (nlohmann-json's own callback takes quadratic time on long
+// arrays.)
+class LimitScan {
+ public:
+  explicit LimitScan(const std::string& subject) : subject_(subject) {}
+
+  void run(std::span<const std::uint8_t> bytes) {
+    for (const std::uint8_t c : bytes) {
+      if (in_text_)
+        take_of_text(c);
+      else
+        take(c);
+    }
+  }
+
+ private:
+  void take(std::uint8_t c) {
+    switch (c) {
+      case '"': in_text_ = true, text_bytes_ = 0; break;
+      case '[':
+      case '{':
+        if (++depth_ > kMaxJsonDepth) refuse("JSON may be nested at most 64 deep; flatten the document");
+        count_value();
+        break;
+      case ']':
+      case '}': --depth_; break;
+      case ',': count_value(); break;
+      default: break;
+    }
+  }
+
+  void take_of_text(std::uint8_t c) {
+    if (++text_bytes_ > kMaxJsonText) refuse("a text in JSON may have at most 1 MiB; shorten it");
+    if (escaped_)
+      escaped_ = false;
+    else if (c == '\\')
+      escaped_ = true;
+    else if (c == '"')
+      in_text_ = false;
+  }
+
+  void count_value() {
+    if (++values_ > kMaxJsonValues) refuse("JSON may hold at most 1,000,000 values; send a smaller document");
+  }
+
+  [[noreturn]] void refuse(const char* message) const { throw Error(ErrorCode::LimitExceeded, subject_, message); }
+
+  const std::string& subject_;
+  bool in_text_ = false, escaped_ = false;
+  int depth_ = 0;
+  std::size_t values_ = 0, text_bytes_ = 0;
+};
+
 }  // namespace
 
 json parse_json(std::span<const std::uint8_t> bytes, const std::string& subject) {
   if (bytes.size() > kMaxJsonBytes)
     throw Error(ErrorCode::LimitExceeded, subject, "JSON documents may have at most 64 MiB; send a smaller one");
-  std::size_t values = 0;
-  const auto count = [&](int depth, json::parse_event_t event, json&) {
-    if (depth > kMaxJsonDepth)
-      throw Error(ErrorCode::LimitExceeded, subject, "JSON may be nested at most 64 deep; flatten the document");
-    if (event != json::parse_event_t::object_end && event != json::parse_event_t::array_end &&
-        ++values > kMaxJsonValues)
-      throw Error(ErrorCode::LimitExceeded, subject, "JSON may hold at most 2,000,000 values; send a smaller document");
-    return true;
-  };
+  LimitScan(subject).run(bytes);
   try {
-    return json::parse(bytes.begin(), bytes.end(), count);
+    return json::parse(bytes.begin(), bytes.end());
   } catch (const json::parse_error& error) {
     throw Error(
         ErrorCode::FileMalformed, subject,

@@ -21,7 +21,8 @@
 namespace toile::io {
 
 inline constexpr int kMaxJsonDepth = 64;
-inline constexpr std::size_t kMaxJsonValues = 2'000'000;  // bounds the memory of a document to about 150 MB
+inline constexpr std::size_t kMaxJsonValues = 1'000'000;  // bounds the memory of a document to about 130 MB
+inline constexpr std::size_t kMaxJsonText = 1u << 20;     // bytes of one string, quotes and escapes included
 inline constexpr std::size_t kMaxJsonBytes = 64u << 20;
 
 // Throws Error{FileMalformed} with line and column, Error{LimitExceeded} for depth or size.

@@ -58,8 +58,12 @@ void check_edges(const Panel& panel) {
   }
 }
 
-void check_simple(const Panel& panel) {
-  const auto crossing = find_outline_crossing(panel);
+void check_simple(const Panel& panel, CrossingWork& work) {
+  const auto crossing = find_outline_crossing(panel, work);
+  if (work.comparisons_left < 0)
+    throw Error(ErrorCode::LimitExceeded, panel_pointer(panel),
+                "the outline of panel \"" + panel.name +
+                    "\" is too intricate to be checked; draw it with fewer edges and points");
   if (!crossing) return;
   throw Error(ErrorCode::GarmentInvalid, edge_pointer(panel, crossing->second_edge),
               "the outline of panel \"" + panel.name + "\" crosses or touches itself: edge " +
@@ -68,7 +72,7 @@ void check_simple(const Panel& panel) {
                   "); move the corners or curve points apart");
 }
 
-void check_panel(const Panel& panel) {
+void check_panel(const Panel& panel, CrossingWork& work) {
   if (panel.edge_count() < 2 || panel.corners.size() != panel.edges.size())
     throw Error(ErrorCode::GarmentInvalid, panel_pointer(panel),
                 "panel \"" + panel.name + "\" needs at least two edges");
@@ -79,7 +83,7 @@ void check_panel(const Panel& panel) {
     throw Error(ErrorCode::GarmentInvalid, panel_pointer(panel),
                 "panel \"" + panel.name + "\" has a coordinate that is not a finite number; correct it");
   check_edges(panel);
-  check_simple(panel);
+  check_simple(panel, work);
   const double area = std::abs(outline_signed_area(panel));
   if (!(area >= kSmallestPanel))
     throw Error(
@@ -121,7 +125,8 @@ void validate_pattern(const Pattern& pattern) {
     throw Error(ErrorCode::GarmentInvalid, "/pattern/panels", "the pattern has no panel; add at least one");
   if (pattern.panels.size() > io::kMaxPanels)
     throw Error(ErrorCode::LimitExceeded, "/pattern/panels", "a pattern may have at most 200 panels");
-  for (const Panel& panel : pattern.panels) check_panel(panel);
+  CrossingWork work = crossing_work(pattern);
+  for (const Panel& panel : pattern.panels) check_panel(panel, work);
   check_seams(pattern);
 }
 

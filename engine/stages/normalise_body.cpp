@@ -20,7 +20,7 @@ constexpr double kUprightRefused = 1.7;                           // persons 1.8
 constexpr double kFrontRefused = 0.03, kFrontWarned = 0.06;       // persons .075-.098
 constexpr double kMirrorRefused = 0.015;                          // m; persons 0-2 mm, two people 45 mm
 constexpr double kFloorQuantile = 0.0005;                         // of the vertices: a few may stick out below
-constexpr double kHeightMin = 0.6, kHeightMax = 2.4;              // m, accepted
+constexpr double kHeightMin = 0.5, kHeightMax = 2.5;              // m, accepted
 constexpr double kHeightLikelyMin = 1.0, kHeightLikelyMax = 2.2;  // m, preferred where several units fit
 constexpr double kFormHeightMin = 0.1;                            // m: a form may be a torso
 // A frame that is within these of the found one was meant: it is kept.

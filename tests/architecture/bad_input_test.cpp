@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs the real executable on broken files: exit code 3, a message with file, place and mend, little memory, at once.
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <string>
 
 #include <fcntl.h>
@@ -101,6 +103,44 @@ TEST_F(BadInput, BrokenGarmentsAreRefusedWithFilePlaceAndMend) {
   expect_refused("index.json", garment("[[0,0],[10,0],[10,10]]", kStitch), "#/pattern/panels/a/edges/2/endpoints/1");
   expect_refused("deep.json", std::string(1'000'000, '['), "64");
   expect_refused("wide.json", "[" + std::string(20'000'000, '1').replace(1, 1, ",") + "]", "wide.json");
+}
+
+// A regular polygon of `edges` edges, each with the curve given as JSON.
+std::string round_panel(int edges, const std::string& curvature) {
+  std::string vertices, list;
+  for (int i = 0; i < edges; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / edges;
+    vertices +=
+        (i ? ",[" : "[") + std::to_string(100 * std::cos(angle)) + "," + std::to_string(100 * std::sin(angle)) + "]";
+    list += std::string(i ? "," : "") + R"({"endpoints":[)" + std::to_string(i) + "," +
+            std::to_string((i + 1) % edges) + R"(],"curvature":)" + curvature + "}";
+  }
+  return R"({"vertices":[)" + vertices + R"(],"edges":[)" + list + "]}";
+}
+
+std::string garment_of(int count, const std::string& panel) {
+  std::string panels;
+  for (int p = 0; p < count; ++p) panels += (p ? ",\"p" : "\"p") + std::to_string(p) + "\":" + panel;
+  return R"({"pattern":{"panels":{)" + panels + "}}}";
+}
+
+// A comb of slender teeth side by side, drawn as one polyline that never meets itself.
+std::string comb_panel(int points) {
+  std::string list;
+  for (int i = 0; i < points; ++i)
+    list += (i ? ",[" : "[") + std::to_string((i + 1.0) / (points + 1.0)) + (i % 2 ? ",2]" : ",0.1]");
+  return R"({"vertices":[[0,0],[1000,0]],"edges":[{"endpoints":[0,1],"curvature":{"type":"polyline","params":[)" +
+         list + R"(]}},{"endpoints":[1,0]}]})";
+}
+
+TEST_F(BadInput, GarmentsMadeToTakeLongAreRefusedAtOnce) {
+  const std::string wild = R"({"type":"cubic","params":[[0.5,9000],[0.4,-9000]]})";
+  expect_refused("curves.json", garment_of(30, round_panel(2000, wild)), "the outline of panel");
+  expect_refused("comb.json", garment_of(1, comb_panel(90'000)), "too intricate");
+  std::string objects = "[{}";
+  for (int i = 1; i < 400'000; ++i) objects += R"(,{"a":1})";
+  expect_refused("objects.json", objects + "]", "objects.json");
+  expect_refused("text.json", R"({"pattern":")" + std::string(60'000'000, 'x') + R"("})", "1 MiB");
 }
 
 std::string cube(double size) {

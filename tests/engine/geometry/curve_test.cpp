@@ -164,5 +164,34 @@ TEST(SelfCrossing, FindsCrossingsTouchesAndRunBacks) {
   EXPECT_TRUE(find_self_crossing({{0, 0}, {1, 0}, {1, 1}, {0.5, -1}, {0, 1}}, tolerance));
 }
 
+TEST(SelfCrossing, CountsItsComparisonsAndStopsWhenTheyAreUsedUp) {
+  std::vector<Vec2> comb = {{0, -1}};  // teeth as high as the comb is wide: all overlap along the sweep
+  for (int i = 0; i < 100; ++i) comb.emplace_back(0.01 * i, i % 2 ? 2.0 : 0.0);
+  comb.emplace_back(1, -1);
+  std::int64_t left = 1'000'000;
+  EXPECT_FALSE(find_self_crossing(comb, 1e-9, &left));
+  const std::int64_t used = 1'000'000 - left;
+  EXPECT_GT(used, 100 * 99 / 4);
+  EXPECT_LT(used, 102 * 101);
+  left = used;
+  EXPECT_FALSE(find_self_crossing(comb, 1e-9, &left));
+  EXPECT_EQ(left, 0);
+  left = used - 1;
+  find_self_crossing(comb, 1e-9, &left);
+  EXPECT_LT(left, 0);
+}
+
+TEST(Curve, IsFlattenedIntoNoMoreChordsThanAllowed) {
+  Curve curve{{0, 0}, {1, 0}, {}};
+  curve.shape.kind = CurveKind::CubicBezier;
+  curve.shape.control = {Vec2(0.5, 900), Vec2(0.4, -900)};
+  EXPECT_EQ(flatten_curve(curve, 1e-5).size(), 1u + kMostFlattenChords);
+  const auto points = flatten_curve(curve, 1e-5, 40);
+  ASSERT_EQ(points.size(), 41u);
+  EXPECT_EQ(points.front(), curve.start);
+  EXPECT_EQ(points.back(), curve.end);
+  EXPECT_LT((points[20] - curve_point(curve, 0.5)).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace toile

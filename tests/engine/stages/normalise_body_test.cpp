@@ -152,6 +152,18 @@ TEST(NormaliseBody, RefusesASixCentimetreBody) {
   EXPECT_NE(message.find("unit"), std::string::npos);
 }
 
+TEST(NormaliseBody, TakesHeightsFromHalfAMetreToTwoAndAHalf) {
+  TOILE_REQUIRE_SHARED_DATA();
+  const TriangleMesh body = load_shared_body("mh_female_average").surface;
+  const double height = body.vertices.col(1).maxCoeff() - body.vertices.col(1).minCoeff();
+  NormaliseBodyOptions metres;
+  metres.unit = LengthUnit::Metre;
+  for (const double wanted : {0.51, 2.49})
+    EXPECT_NO_THROW(normalise_body(moved(body, Mat3::Identity(), wanted / height, Vec3::Zero()), metres)) << wanted;
+  for (const double wanted : {0.49, 2.51})
+    EXPECT_THROW(normalise_body(moved(body, Mat3::Identity(), wanted / height, Vec3::Zero()), metres), Error) << wanted;
+}
+
 TEST(NormaliseBody, RefusesTwoPeople) {
   TOILE_REQUIRE_SHARED_DATA();
   const TriangleMesh a = load_shared_body("mh_female_average").surface;
