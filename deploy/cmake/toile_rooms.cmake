@@ -1,3 +1,11 @@
+# toile_count_lines(TARGET): with TOILE_COVERAGE its sources count how often each line ran (tests/coverage).
+function(toile_count_lines target)
+  if(TOILE_COVERAGE)
+    target_compile_options(${target} PRIVATE --coverage -O0)
+    target_link_options(${target} PUBLIC --coverage)
+  endif()
+endfunction()
+
 # toile_room(NAME [PUBLIC target...] [PRIVATE target...])
 # A folder of sources as one library `toile_NAME`. PUBLIC links are the rooms it may include; the architecture test
 # checks the includes themselves.

@@ -26,7 +26,12 @@ std::string check(Connection& connection, const char* pragma) {
 
 }  // namespace
 
-Transaction::Transaction(Database& database) : lock_(database.writer_lock_), connection_(*database.writer_) {
+Transaction::Transaction(Database& database, Durability durability)
+    : lock_(database.writer_lock_), connection_(*database.writer_) {
+  if (database.durability_ != durability) {
+    connection_.run_script(durability == Durability::Flushed ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=NORMAL");
+    database.durability_ = durability;
+  }
   connection_.run("BEGIN IMMEDIATE");
 }
 

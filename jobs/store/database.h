@@ -14,10 +14,17 @@ namespace toile {
 
 class Database;
 
+// What a commit promises. A power cut ends every worker with the machine: what only tells who works on what need not
+// outlive it, and need not wait for the disk.
+enum class Durability {
+  Flushed,     // on the disk when commit() returns
+  Eventually,  // atomic and in order, on the disk with the next flushed one
+};
+
 // BEGIN IMMEDIATE ... COMMIT on the writer. Rolls back unless committed. Holds the writer's lock: keep it short.
 class Transaction {
  public:
-  explicit Transaction(Database& database);
+  explicit Transaction(Database& database, Durability durability = Durability::Flushed);
   ~Transaction();
   Transaction(const Transaction&) = delete;
   Transaction& operator=(const Transaction&) = delete;
@@ -64,6 +71,7 @@ class Database {
   std::filesystem::path file_;
   std::mutex writer_lock_;
   std::unique_ptr<Connection> writer_;
+  Durability durability_ = Durability::Flushed;  // the writer's present setting
   std::mutex readers_lock_;
   std::vector<std::unique_ptr<Connection>> idle_readers_;
 };

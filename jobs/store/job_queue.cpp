@@ -26,7 +26,7 @@ std::string identity_of(Transaction& transaction, const NewJob& job, const std::
 }
 
 void refuse_when_full(Transaction& transaction, std::int64_t limit) {
-  Statement row = transaction->query("SELECT count(*) FROM jobs WHERE state = 'queued'");
+  Statement row = transaction->query("SELECT count FROM waiting");
   if (row.step() && row.integer(0) >= limit)
     throw Error(ErrorCode::QueueFull, "queue", "too many jobs are waiting: try again later");
 }
@@ -121,7 +121,7 @@ std::optional<Job> JobQueue::claim(const std::string& worker) {
         now);
     if (!row.step()) return std::nullopt;
   }
-  Transaction transaction(database_);
+  Transaction transaction(database_, Durability::Eventually);
   const std::optional<std::string> id = next_ready(transaction, now);
   if (!id) return std::nullopt;
   transaction->run(
@@ -143,7 +143,7 @@ std::vector<LeaseState> JobQueue::heartbeat(std::span<const ProgressReport> repo
   if (reports.empty()) return {};
   std::vector<LeaseState> states;
   const std::int64_t now = clock_();
-  Transaction transaction(database_);
+  Transaction transaction(database_, Durability::Eventually);
   for (const ProgressReport& report : reports) {
     const std::int64_t renewed = transaction->run(
         "UPDATE jobs SET lease_until_ms = ?1, version = version + (stage <> ?2 OR progress < ?3), stage = ?2,"

@@ -14,7 +14,7 @@ namespace toile {
 struct QueueOptions {
   std::int64_t lease_ms = 30000;         // a worker silent for so long has lost its job, > 0
   int max_crashes = 2;                   // crashes after which a job fails as `crashed`, >= 1
-  int max_attempts = 8;                  // leases of one job, lost ones included, after which it fails, >= 1
+  int max_attempts = 16;                 // leases of one job, lost ones included, after which it fails, >= 1
   std::int64_t first_backoff_ms = 1000;  // wait before the second try; doubled for each further one
   std::int64_t max_backoff_ms = 60000;   // bound of that wait
   int batch_share = 8;                   // one claim in so many looks at batch jobs first, >= 2

@@ -91,6 +91,19 @@ CREATE INDEX webhooks_by_time ON webhooks(next_ms);
 CREATE TABLE workers(
   name TEXT PRIMARY KEY, seen_ms INTEGER NOT NULL, slots INTEGER NOT NULL, running INTEGER NOT NULL) STRICT, WITHOUT ROWID;
 )sql",
+    // The number of queued jobs, so that handing in a job does not count them all.
+    R"sql(
+CREATE TABLE waiting(only INTEGER PRIMARY KEY CHECK (only = 1), count INTEGER NOT NULL) STRICT;
+INSERT INTO waiting SELECT 1, count(*) FROM jobs WHERE state = 'queued';
+CREATE TRIGGER jobs_come AFTER INSERT ON jobs WHEN NEW.state = 'queued'
+  BEGIN UPDATE waiting SET count = count + 1; END;
+CREATE TRIGGER jobs_return AFTER UPDATE OF state ON jobs WHEN NEW.state = 'queued' AND OLD.state <> 'queued'
+  BEGIN UPDATE waiting SET count = count + 1; END;
+CREATE TRIGGER jobs_leave AFTER UPDATE OF state ON jobs WHEN OLD.state = 'queued' AND NEW.state <> 'queued'
+  BEGIN UPDATE waiting SET count = count - 1; END;
+CREATE TRIGGER jobs_go AFTER DELETE ON jobs WHEN OLD.state = 'queued'
+  BEGIN UPDATE waiting SET count = count - 1; END;
+)sql",
 };
 
 }  // namespace

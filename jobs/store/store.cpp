@@ -38,7 +38,7 @@ std::int64_t Store::free_bytes() const {
 }
 
 void Store::note_worker(const WorkerStatus& status) {
-  Transaction transaction(database);
+  Transaction transaction(database, Durability::Eventually);
   transaction->run(
       "INSERT INTO workers(name, seen_ms, slots, running) VALUES (?1, ?2, ?3, ?4)"
       " ON CONFLICT (name) DO UPDATE SET seen_ms = ?2, slots = ?3, running = ?4",
@@ -48,7 +48,7 @@ void Store::note_worker(const WorkerStatus& status) {
 }
 
 void Store::forget_worker(const std::string& name) {
-  Transaction transaction(database);
+  Transaction transaction(database, Durability::Eventually);
   transaction->run("DELETE FROM workers WHERE name = ?", name);
   transaction.commit();
 }

@@ -50,5 +50,6 @@ int bench_panels(const Arguments& arguments);
 int bench_pictures(const Arguments& arguments);
 int bench_oracle(const Arguments& arguments);
 int bench_register(const Arguments& arguments);
+int bench_queue(const Arguments& arguments);
 
 }  // namespace toile::bench

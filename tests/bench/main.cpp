@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
       {"oracle", {"default against Newton: [GARMENT...] [--triangles N] [--frictionless]", bench_oracle}},
       {"panels", {"draw a flat pattern: GARMENT.json OUT.png|OUT.svg", bench_panels}},
       {"pictures", {"all a job shows of a drape: GARMENT.json BODY.obj FOLDER", bench_pictures}},
+      {"queue", {"what the queue costs a job, in flushes of the disk: [FOLDER]", bench_queue}},
       {"register", {"body maps: time against error over pairs and resolutions, growth", bench_register}},
       {"view", {"look at a body and a drape: BODY.obj [DRAPE.obj] OUT.png [--stretch 0.1]", bench_view}},
   };

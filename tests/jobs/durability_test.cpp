@@ -158,6 +158,25 @@ TEST_F(Durability, ADatabaseOfANewerToileIsRefused) {
   EXPECT_THROW(reopen(), Error);
 }
 
+TEST_F(Durability, ADatabaseOfTheFirstStepIsBroughtUpToDateWithItsJobs) {
+  enqueue();
+  enqueue();
+  {
+    Transaction transaction(store->database);
+    for (const char* sql : {"DROP TRIGGER jobs_come", "DROP TRIGGER jobs_return", "DROP TRIGGER jobs_leave",
+                            "DROP TRIGGER jobs_go", "DROP TABLE waiting", "PRAGMA user_version = 1"})
+      transaction->run(sql);
+    transaction.commit();
+  }
+  options.max_queued = 3;
+  reopen();
+  enqueue();
+  EXPECT_THROW(enqueue(), Error);
+  EXPECT_TRUE(store->queue.claim("w"));
+  enqueue();
+  expect_sound();
+}
+
 TEST_F(Durability, AChangedFileIsNoticed) {
   const std::string sha256 = store->inputs.find("alice", body)->sha256;
   std::filesystem::permissions(store->artifacts.path_of(sha256), std::filesystem::perms::owner_all);

@@ -70,6 +70,8 @@ TEST_F(JobQueue, TwoCrashesFailAJobForGood) {
 }
 
 TEST_F(JobQueue, TransientFailuresWaitLongerEachTimeAndEndAtTheLastAttempt) {
+  options.max_attempts = 8;
+  reopen();
   const std::string id = enqueue();
   std::vector<std::int64_t> waits;
   for (int attempt = 1; attempt <= options.max_attempts; ++attempt) {
@@ -171,6 +173,30 @@ TEST_F(JobQueue, AFullQueueRefuses) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::QueueFull);
   }
+}
+
+TEST_F(JobQueue, TheNumberOfWaitingJobsIsRightWhateverHappensToThem) {
+  const auto counted = [&](const char* sql) {
+    Reader reader(store->database);
+    Statement row = reader->query(sql);
+    row.step();
+    return row.integer(0);
+  };
+  const auto expect_right = [&](std::int64_t waiting) {
+    EXPECT_EQ(counted("SELECT count(*) FROM jobs WHERE state = 'queued'"), waiting);
+    EXPECT_EQ(counted("SELECT count FROM waiting"), waiting);
+  };
+  for (int n = 0; n < 4; ++n) enqueue();
+  expect_right(4);
+  const Job first = *store->queue.claim("w"), second = *store->queue.claim("w");
+  expect_right(2);
+  store->queue.finish({first.id, first.attempt}, success());
+  store->queue.finish({second.id, second.attempt}, ended(Outcome::Kind::Interrupted));
+  expect_right(3);
+  store->queue.cancel("alice", second.id);
+  expect_right(2);
+  store->removal.remove_input("alice", InputKind::Body, target);
+  expect_right(0);
 }
 
 TEST_F(JobQueue, FollowersWaitForTheirLeaderHoweverItEnds) {
