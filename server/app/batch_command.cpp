@@ -9,12 +9,12 @@
 #include "engine/core/content_hash.h"
 #include "engine/io/options_json.h"
 #include "engine/outputs.h"
-#include "server/app/batch_report.h"
 #include "server/app/body_source.h"
 #include "server/app/command.h"
 #include "server/app/files.h"
 #include "server/app/fit_summary.h"
 #include "server/app/folder_stages.h"
+#include "server/http/batch_report.h"
 
 namespace toile::app {
 
@@ -79,19 +79,21 @@ class Batch {
   int run() {
     const std::vector<std::string> bodies = bodies_of(files_.target_bodies);
     std::map<std::string, int> used;
-    std::vector<BatchRow> rows;
+    std::vector<http::BatchRow> rows;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       rows.push_back(one(bodies[i], folder_of(bodies[i], used), i, bodies.size()));
       report(rows);
     }
     std::printf("%s\n", (fs::path(files_.out) / "summary.html").c_str());
     return static_cast<int>(
-        std::count_if(rows.begin(), rows.end(), [](const BatchRow& row) { return !row.error.empty(); }));
+        std::count_if(rows.begin(), rows.end(), [](const http::BatchRow& row) { return !row.error.empty(); }));
   }
 
  private:
-  BatchRow one(const std::string& file, const std::string& folder, std::size_t index, std::size_t count) {
-    BatchRow row{file, folder, "", {}};
+  http::BatchRow one(const std::string& file, const std::string& folder, std::size_t index, std::size_t count) {
+    http::BatchRow row;
+    row.body = file;
+    row.link = folder + "/";
     const fs::path out = fs::path(files_.out) / folder;
     try {
       const BodyInput target = read_body_input(file, files_.source);
@@ -101,6 +103,7 @@ class Batch {
       row.fit = fit_by_zone(read_file((out / "result.json").string()));
     } catch (const Error& error) {
       if (error.code == ErrorCode::Cancelled) throw;
+      row.status = http::BatchRowStatus::Failed;
       row.error = std::string(error_name(error.code)) + ": " + error.what();
     }
     return row;
@@ -128,8 +131,8 @@ class Batch {
     write_file(out / ".key", Bytes(key.begin(), key.end()));
   }
 
-  void report(const std::vector<BatchRow>& rows) const {
-    const std::string csv = batch_csv(rows), html = batch_html(garment_.name, rows);
+  void report(const std::vector<http::BatchRow>& rows) const {
+    const std::string csv = http::batch_csv(rows), html = http::batch_html(garment_.name, rows);
     write_file(fs::path(files_.out) / "summary.csv", Bytes(csv.begin(), csv.end()));
     write_file(fs::path(files_.out) / "summary.html", Bytes(html.begin(), html.end()));
   }

@@ -150,7 +150,7 @@ ordered_json batch_document(const Service& service, const Batch& batch) {
           {"labels", batch.labels},
           {"created_at", iso_time(batch.created_ms)},
           {"counts", counts_of(service, batch.id)},
-          {"links", {{"self", self}}}};
+          {"links", {{"self", self}, {"table", self + "/summary.csv"}, {"page", self + "/summary.html"}}}};
 }
 
 Response whole_batch(const Service& service, int status, const std::string& tenant, const std::string& id) {

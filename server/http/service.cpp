@@ -39,6 +39,7 @@ Service::Service(Store& store_, ServiceOptions options_, ApiKeys keys_, EventLog
   add_event_routes(*this);
   add_artifact_routes(*this);
   add_batch_routes(*this);
+  add_batch_summary_routes(*this);
   add_system_routes(*this);
 }
 

@@ -79,6 +79,7 @@ void add_job_routes(Service& service);
 void add_event_routes(Service& service);
 void add_artifact_routes(Service& service);
 void add_batch_routes(Service& service);
+void add_batch_summary_routes(Service& service);
 void add_system_routes(Service& service);
 
 }  // namespace toile::http

@@ -67,6 +67,12 @@ for _ in $(seq 600); do
 done
 expect "batch jobs that ended well" "$(echo "$batch" | field .counts.succeeded)" 5
 expect "rows of the fit matrix" "$(echo "$batch" | field '[.fit_matrix[] | select(.fit | length > 0)] | length')" 5
+table=$(get "$(echo "$batch" | field .links.table)")
+expect "the head of the table" "$(echo "$table" | head -1 | cut -d, -f1-4)" "body,id,status,error"
+expect "bodies in the table" "$(echo "$table" | grep -c ',done,')" 5
+get "$(echo "$batch" | field .links.page)" > "$work/page"
+expect "reports the page leads to" "$(grep -c '/artifacts/report.html' "$work/page")" 5
+expect "one of them" "$(status "$url/v1/batches/x/$(grep -o '"[^"]*report.html' "$work/page" | head -1 | tr -d '"')")" 200
 expect "batches listed" "$(get /v1/batches | field '.items | length')" 1
 
 get /metrics | grep -q 'toile_jobs{state="succeeded"} [1-9]' || fail "no metrics"

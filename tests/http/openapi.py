@@ -125,6 +125,9 @@ call("createBatch", body={"garment": garment, "reference_body": reference}, want
 call("listBatches", want=200)
 call("getBatch", {"id": batch}, want=200)
 call("getBatch", {"id": "batch_0"}, want=404)
+for operation in ("getBatchTable", "getBatchPage"):
+    call(operation, {"id": batch}, want=200)
+    call(operation, {"id": "batch_0"}, want=404)
 for operation in ("health", "ready", "metrics", "version", "openapi"):
     call(operation, want=200)
 call("schema", {"file": "job.schema.json"}, want=200)

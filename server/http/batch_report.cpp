@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "server/app/batch_report.h"
+#include "server/http/batch_report.h"
 
 #include <algorithm>
 #include <array>
@@ -7,11 +7,22 @@
 #include <cstdio>
 #include <set>
 
-namespace toile::app {
+namespace toile::http {
 
 namespace {
 
 constexpr double kFullColour = 0.10;  // stretch shown in the full colour
+
+const char* word(BatchRowStatus status) {
+  switch (status) {
+    case BatchRowStatus::Done: return "done";
+    case BatchRowStatus::Failed: return "failed";
+    case BatchRowStatus::Cancelled: return "cancelled";
+    case BatchRowStatus::Queued: return "queued";
+    case BatchRowStatus::Running: return "running";
+  }
+  return "";
+}
 
 std::set<std::string> zones_of(const std::vector<BatchRow>& rows) {
   std::set<std::string> zones;
@@ -51,7 +62,9 @@ std::string html_text(const std::string& text) {
 }
 
 double worst(const BatchRow& row) {
-  double most = row.error.empty() ? 0.0 : 1e9;
+  if (row.status == BatchRowStatus::Failed) return 1e9;
+  if (row.status != BatchRowStatus::Done) return -1.0;
+  double most = 0.0;
   for (const auto& [zone, stretch] : row.fit) most = std::max(most, std::abs(stretch));
   return most;
 }
@@ -72,17 +85,41 @@ std::string cell(const BatchRow& row, const std::string& zone) {
 
 std::string batch_csv(const std::vector<BatchRow>& rows) {
   const std::set<std::string> zones = zones_of(rows);
-  std::string text = "body,status,error";
+  const bool with_ids = std::any_of(rows.begin(), rows.end(), [](const BatchRow& row) { return !row.id.empty(); });
+  std::string text = with_ids ? "body,id,status,error" : "body,status,error";
   for (const std::string& zone : zones) text.append(",").append(csv_field(zone)).append("_percent");
   text += "\n";
   for (const BatchRow& row : rows) {
-    text += csv_field(row.body) + (row.error.empty() ? ",done," : ",failed,") + csv_field(row.error);
+    text += csv_field(row.body);
+    if (with_ids) text.append(",").append(csv_field(row.id));
+    text.append(",").append(word(row.status)).append(",").append(csv_field(row.error));
     for (const std::string& zone : zones)
       text.append(",").append(row.fit.contains(zone) ? percent(row.fit.at(zone)) : "");
     text += "\n";
   }
   return text;
 }
+
+namespace {
+
+std::string html_row(const BatchRow& row, const std::set<std::string>& zones) {
+  std::string text = "<tr><td>";
+  if (row.link.empty())
+    text += html_text(row.body);
+  else
+    text += "<a href=\"" + html_text(row.link) + "\">" + html_text(row.body) + "</a>";
+  text += "</td>";
+  if (row.status == BatchRowStatus::Done) {
+    for (const std::string& zone : zones) text += cell(row, zone);
+  } else {
+    text += row.status == BatchRowStatus::Failed ? "<td class=\"no\" colspan=\"" : "<td colspan=\"";
+    text += std::to_string(std::max<std::size_t>(1, zones.size())) + "\">" +
+            html_text(row.error.empty() ? word(row.status) : row.error) + "</td>";
+  }
+  return text + "</tr>\n";
+}
+
+}  // namespace
 
 std::string batch_html(const std::string& garment, const std::vector<BatchRow>& rows) {
   const std::set<std::string> zones = zones_of(rows);
@@ -98,16 +135,8 @@ std::string batch_html(const std::string& garment, const std::vector<BatchRow>& 
       "<table><tr><th>body</th>";
   for (const std::string& zone : zones) page += "<th>" + html_text(zone) + "</th>";
   page += "</tr>\n";
-  for (const BatchRow& row : sorted) {
-    page += "<tr><td><a href=\"" + html_text(row.folder) + "/\">" + html_text(row.body) + "</a></td>";
-    if (!row.error.empty())
-      page += "<td class=\"no\" colspan=\"" + std::to_string(std::max<std::size_t>(1, zones.size())) + "\">" +
-              html_text(row.error) + "</td>";
-    else
-      for (const std::string& zone : zones) page += cell(row, zone);
-    page += "</tr>\n";
-  }
+  for (const BatchRow& row : sorted) page += html_row(row, zones);
   return page + "</table></html>\n";
 }
 
-}  // namespace toile::app
+}  // namespace toile::http
