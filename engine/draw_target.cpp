@@ -31,39 +31,56 @@ class Drawing {
 
   DrawnTarget run() {
     for (const double kept : kKept) {
-      DrawnTarget target = attempt(kept);
-      std::vector<bool> bad = bad_panels(target);
-      const bool seams_agree = target.drawn.largest_seam_mismatch <= kSeamTolerance;
-      if (kept < 1.0 && !seams_agree) bad.assign(bad.size(), true);
-      if (std::find(bad.begin(), bad.end(), true) == bad.end() || (kept == 0.0 && all_held_back())) return target;
-      for (std::size_t p = 0; p < bad.size(); ++p) hold_back(bad, p);
+      Attempt tried = attempt(kept);
+      std::vector<bool> bad = bad_panels(tried);
+      if (kept < 1.0 && tried.target.drawn.largest_seam_mismatch > kSeamTolerance) bad.assign(bad.size(), true);
+      if (!any(bad)) return std::move(tried.target);
+      for (std::size_t p = 0; p < bad.size(); ++p)
+        if (bad[p]) hold_back(p);
     }
-    held_back_.assign(held_back_.size(), true);
-    return attempt(0.0);
+    return reference();
   }
 
  private:
-  bool all_held_back() const { return std::find(held_back_.begin(), held_back_.end(), false) == held_back_.end(); }
+  struct Attempt {
+    DrawnTarget target;
+    std::vector<bool> crossing;  // per panel
+  };
 
-  void hold_back(const std::vector<bool>& bad, std::size_t p) {
-    if (!bad[p]) return;
+  static bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); }
+
+  void hold_back(std::size_t p) {
     held_back_[p] = true;
     if (const PanelImage* image = mirrors_.image_of(static_cast<int>(p)))
       held_back_[static_cast<std::size_t>(image->panel)] = true;
   }
 
-  DrawnTarget attempt(double kept) const {
-    DrawnTarget target;
+  // The pattern as it was: its mesh has no inverted triangle.
+  DrawnTarget reference() {
+    held_back_.assign(held_back_.size(), true);
+    DrawnTarget target = attempt(0.0).target;
+    target.inside = {};
+    target.inside.rest = blended(0.0);
+    return target;
+  }
+
+  // The inside is left out where an outline crosses itself: none would be without inverted triangles.
+  Attempt attempt(double kept) const {
+    Attempt tried;
+    DrawnTarget& target = tried.target;
+    for (std::size_t p = 0; p < held_back_.size(); ++p)
+      if (held_back_[p]) target.held_back.push_back(static_cast<int>(p));
+    if (!target.held_back.empty()) target.kept_change = kept;
     const Points2 rest = blended(kept);
     FitPatternEdgesOptions drawing;
     drawing.keep_straight = options_.keep_straight;
     target.drawn = fit_pattern_edges(pattern_, mesh_, rest, mirrors_, drawing);
+    for (const Panel& panel : target.drawn.pattern.panels)
+      tried.crossing.push_back(find_outline_crossing(panel).has_value());
+    if (any(tried.crossing)) return tried;
     const Points2 outline = place_on_edges(pattern_, target.drawn.pattern, mesh_, rest);
     target.inside = derive_inside(mesh_, fit_, shape_, outline, mirrors_, options_, progress_);
-    for (std::size_t p = 0; p < held_back_.size(); ++p)
-      if (held_back_[p]) target.held_back.push_back(static_cast<int>(p));
-    if (!target.held_back.empty()) target.kept_change = kept;
-    return target;
+    return tried;
   }
 
   // Held back panels between the reference and the derived one about a common centre; the grain keeps its direction.
@@ -81,13 +98,11 @@ class Drawing {
     return rest;
   }
 
-  std::vector<bool> bad_panels(const DrawnTarget& target) const {
-    std::vector<bool> bad(held_back_.size());
-    for (std::size_t p = 0; p < bad.size(); ++p)
-      bad[p] = find_outline_crossing(target.drawn.pattern.panels[p]).has_value();
-    if (target.inside.flipped_triangles > 0)
+  std::vector<bool> bad_panels(const Attempt& tried) const {
+    std::vector<bool> bad = tried.crossing;
+    if (tried.target.inside.flipped_triangles > 0)
       for (int f = 0; f < mesh_.triangle_count(); ++f)
-        if (doubled_area(target.inside.rest, mesh_.triangles, f) <= 0.0)
+        if (doubled_area(tried.target.inside.rest, mesh_.triangles, f) <= 0.0)
           bad[static_cast<std::size_t>(mesh_.panel_of_triangle[static_cast<std::size_t>(f)])] = true;
     return bad;
   }

@@ -119,12 +119,30 @@ class MirrorFinder {
       if (w < 0) return;
       found.push_back(w);
     }
-    if (found.size() != by_x.size()) return;
+    if (found.size() != by_x.size() || !same_triangles(from, to, found)) return;
     for (int v = from.vertex_begin; v < from.vertex_end; ++v) {
       const int w = found[static_cast<std::size_t>(v - from.vertex_begin)];
       result_.vertex[static_cast<std::size_t>(v)] = w;
       result_.vertex[static_cast<std::size_t>(w)] = v;
     }
+  }
+
+  bool same_triangles(const PanelRange& from, const PanelRange& to, const std::vector<int>& image) const {
+    using Corners = std::array<int, 3>;
+    std::vector<Corners> wanted, there;
+    const auto sorted = [](Corners corners) {
+      std::sort(corners.begin(), corners.end());
+      return corners;
+    };
+    for (int f = from.triangle_begin; f < from.triangle_end; ++f) {
+      const auto at = [&](int k) { return image[static_cast<std::size_t>(mesh_.triangles(f, k) - from.vertex_begin)]; };
+      wanted.push_back(sorted({at(0), at(1), at(2)}));
+    }
+    for (int f = to.triangle_begin; f < to.triangle_end; ++f)
+      there.push_back(sorted({mesh_.triangles(f, 0), mesh_.triangles(f, 1), mesh_.triangles(f, 2)}));
+    std::sort(wanted.begin(), wanted.end());
+    std::sort(there.begin(), there.end());
+    return wanted == there;
   }
 
   int nearest(const std::vector<int>& by_x, const Vec2& wanted) const {
