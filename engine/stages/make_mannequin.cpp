@@ -80,6 +80,20 @@ void check_range(const Measurements& asked, double height) {
   }
 }
 
+// By their definitions (measurements.md) these girths enclose the waist, the least girth of the trunk's middle.
+void check_together(const Measurements& asked, double tolerance) {
+  const auto waist = asked.find("waist_girth");
+  if (waist == asked.end()) return;
+  for (const char* name : {"hip_girth", "belly_girth", "chest_girth"}) {
+    const auto other = asked.find(name);
+    if (other == asked.end() || other->second > waist->second - tolerance) continue;
+    refuse(name, std::to_string(std::lround(other->second * kMmPerMetre)) + " mm is less than the waist_girth, " +
+                     std::to_string(std::lround(waist->second * kMmPerMetre)) +
+                     " mm; the waist is the least girth between hip and chest: give the girth of a belly as "
+                     "belly_girth");
+  }
+}
+
 class MannequinMaker {
  public:
   MannequinMaker(const Measurements& asked, const MakeMannequinOptions& options)
@@ -87,6 +101,7 @@ class MannequinMaker {
 
   MakeMannequinResult run() {
     check_range(asked_, wanted_.at("height"));
+    check_together(asked_, options_.tolerance);
     begin();
     build();
     int sweeps = 1;
@@ -132,8 +147,8 @@ class MannequinMaker {
     const auto between = [&](Girth a, Girth b) { return 0.5 * (factor(a) + factor(b)); };
     if (!wanted("bust_girth")) factor(Girth::Bust) = factor(Girth::Chest);
     if (!wanted("chest_girth")) factor(Girth::Chest) = factor(Girth::Bust);
-    if (!wanted("underbust_girth")) factor(Girth::Underbust) = between(Girth::Bust, Girth::Waist);
-    if (!wanted("belly_girth")) factor(Girth::Belly) = between(Girth::Waist, Girth::Hip);
+    if (!wanted("underbust_girth")) factor(Girth::Underbust) = ribs_ * between(Girth::Bust, Girth::Waist);
+    if (!wanted("belly_girth")) factor(Girth::Belly) = belly_ * between(Girth::Waist, Girth::Hip);
     factor(Girth::MidThigh) = between(Girth::Thigh, Girth::Knee);
     factor(Girth::Ankle) = between(Girth::Calf, Girth::Ankle);
     factor(Girth::Elbow) = between(Girth::UpperArm, Girth::Wrist);
@@ -178,6 +193,20 @@ class MannequinMaker {
     return worst;
   }
 
+  // What nobody asked for keeps out of the way: over and under the waist the body is no narrower, lest the least girth
+  // be found there, and the belly lies between waist and hip.
+  void keep_waist_least() {
+    constexpr double kWaistShare = 0.45, kOverWaist = 1.01, kBelly = 0.42, kRibs = 0.77, kMost = 1.3;
+    const double waist = wanted_.at("waist_girth"), hip = wanted_.at("hip_girth");
+    const double most = std::max(kOverWaist * waist, kWaistShare * waist + (1.0 - kWaistShare) * hip);
+    const auto brought = [&](double scale, double t, double least, double most_girth) {
+      const double girth = trunk_girth(body_.surface, *body_.skeleton, t);
+      return std::clamp(scale * std::clamp(girth, least, most_girth) / girth, 1.0 / kMost, kMost);
+    };
+    if (!wanted("belly_girth")) belly_ = brought(belly_, kBelly, kOverWaist * waist, most);
+    if (!wanted("underbust_girth")) ribs_ = std::max(1.0, brought(ribs_, kRibs, kOverWaist * waist, 1e9));
+  }
+
   // One step for every measurement on its own, in logarithms: as long as the last steps' effect suggests, and bounded,
   // for neighbours pull at each other and a largest girth may jump to another level.
   void adjust() {
@@ -200,6 +229,7 @@ class MannequinMaker {
       step.miss = miss;
       step.taken = std::log(value / before);
     }
+    keep_waist_least();
   }
 
   void refuse_missed() const {
@@ -238,6 +268,7 @@ class MannequinMaker {
   Body body_;
   std::map<std::string, double> corrections_;  // of the quick measurements by the full ones
   std::vector<Step> steps_;
+  double belly_ = 1.0, ribs_ = 1.0;  // of what lies between their neighbours, where no girth is asked for
 };
 
 }  // namespace

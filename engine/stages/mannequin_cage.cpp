@@ -52,7 +52,8 @@ class CageBuilder {
     number_loop(cage_.toe);
     for (auto& row : cage_.arm) number_loop(row);
     for (auto& row : cage_.hand) number_loop(row);
-    number_loop(cage_.finger_tip);
+    for (auto& finger : cage_.finger)
+      for (auto& row : finger) number_loop(row);
     for (auto& row : cage_.thumb) number_loop(row);
   }
 
@@ -118,15 +119,18 @@ class CageBuilder {
     constexpr int kThumbRow = 0, kThumbColumn = 8;  // front of the hand, between its first two rows
     for (int r = 0; r + 1 < static_cast<int>(cage_.hand.size()); ++r)
       tube(cage_.hand[r], cage_.hand[r + 1], r == kThumbRow ? kThumbColumn : -1);
-    const auto &low = cage_.hand[kThumbRow], &high = cage_.hand[kThumbRow + 1];
-    tube(CageRow<4>{low[8], low[9], high[9], high[8]}, cage_.thumb[0]);
-    tube(cage_.thumb[0], cage_.thumb[1]);
-    tube(cage_.thumb[1], cage_.thumb[2]);
-    const auto& nail = cage_.thumb[2];
-    quad(nail[0], nail[1], nail[2], nail[3]);
-    const auto& end = cage_.hand.back();
-    const auto& tip = cage_.finger_tip;
-    patch({{end[0], end[1], end[2]}, {end[9], tip[0], end[3]}, {end[8], tip[1], end[4]}, {end[7], end[6], end[5]}});
+    const auto &low = cage_.hand[kThumbRow], &high = cage_.hand[kThumbRow + 1], &end = cage_.hand.back();
+    add_finger({low[8], low[9], high[9], high[8]}, cage_.thumb);
+    add_finger({end[9], end[0], end[7], end[8]}, cage_.finger[0]);
+    for (std::size_t k = 1; k < cage_.finger.size(); ++k)
+      add_finger({end[k - 1], end[k], end[7 - k], end[8 - k]}, cage_.finger[k]);
+  }
+
+  void add_finger(const CageRow<4>& root, const std::array<CageRow<4>, 3>& rows) {
+    tube(root, rows[0]);
+    tube(rows[0], rows[1]);
+    tube(rows[1], rows[2]);
+    quad(rows[2][0], rows[2][1], rows[2][2], rows[2][3]);
   }
 
   void mirror() {

@@ -29,9 +29,9 @@ struct MannequinCage {
   std::array<CageRow<kLegAround>, 10> leg;
   std::array<CageRow<kLegAround>, 8> foot;
   std::array<int, 2> toe;
-  std::array<CageRow<kArmAround>, 8> arm;  // from the deltoid to the wrist
-  std::array<CageRow<kArmAround>, 5> hand;
-  std::array<int, 2> finger_tip;
+  std::array<CageRow<kArmAround>, 8> arm;   // from the deltoid to the wrist
+  std::array<CageRow<kArmAround>, 4> hand;  // columns 9, 0, 1, 2, 3 on the palm, from the thumb's side; 8 ... 4 behind
+  std::array<std::array<CageRow<4>, 3>, 4> finger;  // from the index: out of the quads between palm and back
   std::array<CageRow<4>, 3> thumb;
 
   int half_count = 0;          // points listed above

@@ -117,6 +117,20 @@ std::optional<double> known(const Measurements& asked, const std::string& name) 
   return std::nullopt;
 }
 
+// The waist is the least girth of the trunk's middle: what was completed gives way.
+void keep_waist_least(const Measurements& asked, Measurements& complete) {
+  constexpr double kOverWaist = 1.01;
+  double& waist = complete.at("waist_girth");
+  for (const char* name : {"hip_girth", "chest_girth", "bust_girth"}) {
+    const auto found = complete.find(name);
+    if (found == complete.end()) continue;
+    if (!asked.contains(name))
+      found->second = std::max(found->second, kOverWaist * waist);
+    else if (!asked.contains("waist_girth"))
+      waist = std::min(waist, found->second / kOverWaist);
+  }
+}
+
 }  // namespace
 
 Measurements complete_measurements(const Measurements& asked, Figure figure) {
@@ -145,6 +159,7 @@ Measurements complete_measurements(const Measurements& asked, Figure figure) {
     if ((name == "bust_girth" || name == "chest_girth") && known(asked, name)) continue;
     complete.try_emplace(name, scale * (row.average_cm + row.step_cm * (row.leg && hip_known ? hip_build : build)));
   }
+  keep_waist_least(asked, complete);
   return complete;
 }
 

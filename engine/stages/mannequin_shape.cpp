@@ -73,6 +73,7 @@ class CagePoints {
     // A thick neck grows to the back and the sides: in front the throat stays under the chin.
     const double back_shift = 0.015 * std::max(0.0, factor * 1e3 - 1.0);
     const double middle_z = neck_axis_z(shape_) - back_shift, base_z = 0.5 * neck_axis_z(shape_) - 0.008 - back_shift;
+    constexpr double kUnderNeck = 0.006;
     for (std::size_t i = 0; i < kAround; ++i) {
       const Vec3 out = ray(kHeadAzimuth[i], 0.0);
       const double back = 0.5 * (1.0 - out.z());
@@ -80,6 +81,9 @@ class CagePoints {
       const Vec3 base(0.0, levels_.neck - 0.030 + 0.022 * back, base_z);
       put(cage_.neck[i], middle + factor * kRadius[i] * out);
       put(cage_.shoulder[4][i], base + factor * kRadius[i] * (0.92 + 0.10 * back + 0.20 * std::abs(out.x())) * out);
+      // A stout chest rises towards the neck, not over its base.
+      double& chest_y = points_(cage_.shoulder[3][i], 1);
+      chest_y = std::min(chest_y, base.y() - kUnderNeck);
     }
   }
 

@@ -76,7 +76,7 @@ class Reader {
   }
 
   Skeleton::Arm arm() const {
-    std::vector<Vec3> line = {0.5 * (at(cage_.finger_tip[0]) + at(cage_.finger_tip[1]))};
+    std::vector<Vec3> line = {centre(cage_.finger[1].back())};
     for (auto row = cage_.hand.rbegin(); row != cage_.hand.rend(); ++row) line.push_back(centre(*row));
     for (auto row = cage_.arm.rbegin(); row != cage_.arm.rend(); ++row) line.push_back(centre(*row));
     line.push_back(centre(cage_.armhole()));

@@ -94,4 +94,8 @@ Measurements measure_mannequin(const TriangleMesh& surface, const Triangles& lef
   return taken;
 }
 
+double trunk_girth(const TriangleMesh& surface, const Skeleton& skeleton, double t) {
+  return BodySlices(surface, false).middle_girth(skeleton.crotch_y + t * (skeleton.armpit_y - skeleton.crotch_y));
+}
+
 }  // namespace toile

@@ -13,4 +13,7 @@ namespace toile {
 Measurements measure_mannequin(const TriangleMesh& surface, const Triangles& left_arm, Skeleton& skeleton,
                                double bust_y);
 
+// Girth of the trunk at a share of the way from crotch to armpit.
+double trunk_girth(const TriangleMesh& surface, const Skeleton& skeleton, double t);
+
 }  // namespace toile

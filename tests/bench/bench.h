@@ -46,6 +46,8 @@ int bench_drape(const Arguments& arguments);
 int bench_view(const Arguments& arguments);
 int bench_alter(const Arguments& arguments);
 int bench_alteration(const Arguments& arguments);
+int bench_examples(const Arguments& arguments);
+int bench_mannequins(const Arguments& arguments);
 int bench_panels(const Arguments& arguments);
 int bench_pictures(const Arguments& arguments);
 int bench_oracle(const Arguments& arguments);

@@ -60,6 +60,10 @@ RandomPerson random_person(int number) {
     const double value = complete.at(spread.name) * (1.0 + dice.between(-spread.share, spread.share));
     if (dice.between(0.0, 1.0) < spread.present) person.asked[spread.name] = value;
   }
+  // A tape finds the waist where the trunk is least: no more than hip and chest.
+  if (const auto waist = person.asked.find("waist_girth"); waist != person.asked.end())
+    for (const char* name : {"hip_girth", "chest_girth"})
+      if (person.asked.contains(name)) waist->second = std::min(waist->second, 0.99 * person.asked.at(name));
   return person;
 }
 

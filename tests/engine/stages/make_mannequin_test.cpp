@@ -96,6 +96,13 @@ TEST(MakeMannequin, WhatIsNotAskedIsCompletedFromTheBuild) {
   EXPECT_FALSE(complete_measurements({{"chest_girth", 0.9}}, Figure::Woman).contains("bust_girth"));
 }
 
+TEST(MakeMannequin, AWaistAsWideAsHipAndChestIsMetWithoutABellyOverThem) {
+  const Measurements asked = {{"height", 1.683}, {"chest_girth", 1.094}, {"waist_girth", 1.023}, {"hip_girth", 1.033}};
+  const Measurements taken = make_mannequin(asked, {.figure = Figure::Man}).body.measurements;
+  for (const auto& [name, value] : asked) EXPECT_NEAR(taken.at(name), value, kTape) << name;
+  EXPECT_LT(taken.at("belly_girth"), 1.10);
+}
+
 void expect_refused(const Measurements& asked, const std::string& subject) {
   try {
     make_mannequin(asked);
@@ -113,6 +120,8 @@ TEST(MakeMannequin, RefusesWhatNoPersonMeasures) {
   expect_refused({{"waist_girth", 72.0}}, "measurements/waist_girth");
   expect_refused({{"hip_girth", -1.0}}, "measurements/hip_girth");
   expect_refused({{"waist_girth", 0.9}, {"belly_girth", 0.7}}, "measurements/belly_girth");
+  expect_refused({{"waist_girth", 1.06}, {"hip_girth", 1.03}}, "measurements/hip_girth");
+  expect_refused({{"waist_girth", 0.9}, {"chest_girth", 0.88}}, "measurements/chest_girth");
 }
 
 TEST(MakeBuiltinBody, KnowsWomenMenChildrenAndForms) {
