@@ -59,8 +59,7 @@ Record altered_pattern_record(const AlterPatternResult& altered) {
                              .add("area_cm2", rounded(region.area * kCm2, 1e-3))
                              .add("outline_mm", points_mm(region.shape.outline)));
   Record record;
-  record.add("schema", "toile/altered_pattern/1")
-      .add("pieces", std::move(pieces))
+  record.add("pieces", std::move(pieces))
       .add("seams", std::move(seams))
       .add("removals", std::move(removals))
       .add("flags", Record::Value(altered.sewn.flags));

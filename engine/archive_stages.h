@@ -181,8 +181,8 @@ void archive(A& a, PanelAlteration& v) {
 }
 template <class A>
 void archive(A& a, PieceMap& v) {
-  auto& [rest, target, triangles] = v;
-  a(rest, target, triangles);
+  auto& [rest, target, triangles, border_count] = v;
+  a(rest, target, triangles, border_count);
 }
 template <class A>
 void archive(A& a, SewnPiece& v) {

@@ -3,65 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/geometry/curve.h"
 #include "engine/geometry/inner_point.h"
-#include "engine/geometry/offset_polygon.h"
 #include "engine/stages/draw_pattern.h"
 
 namespace toile {
 namespace {
 
-constexpr double kTouch = 0.3;  // mm: borders nearer than this are one seam
-
 std::vector<Vec2> in_mm(const std::vector<Vec2>& metres) {
   std::vector<Vec2> points;
   for (const Vec2& p : metres) points.emplace_back(p * kMmPerMetre);
   return points;
-}
-
-std::vector<std::vector<Vec2>> in_mm(const std::vector<std::vector<Vec2>>& lines) {
-  std::vector<std::vector<Vec2>> out;
-  for (const auto& line : lines) out.push_back(in_mm(line));
-  return out;
-}
-
-// The outline without the spikes that booleans leave where two nearly equal borders part: cloth nobody can cut.
-std::vector<Vec2> without_spikes(std::vector<Vec2> outline) {
-  constexpr double kThin = 0.8;  // mm
-  const auto is_spike = [&](std::size_t i) {
-    const std::size_t n = outline.size();
-    const Vec2 &before = outline[(i + n - 1) % n], &tip = outline[i], &after = outline[(i + 1) % n];
-    if ((tip - before).dot(after - tip) >= 0) return false;
-    const bool before_is_nearer = (before - tip).norm() < (after - tip).norm();
-    return (before_is_nearer ? distance_to_polygon({tip, after}, before) : distance_to_polygon({tip, before}, after)) <
-           kThin;
-  };
-  for (std::size_t i = 0; i < outline.size() && outline.size() > 3;) {
-    if (!is_spike(i)) {
-      ++i;
-      continue;
-    }
-    outline.erase(outline.begin() + static_cast<std::ptrdiff_t>(i));
-    i = i > 1 ? i - 2 : 0;  // what was beside the tip may be one now
-  }
-  return outline;
-}
-
-// The outline with the wedges of its darts filled: folded cloth is not cut out.
-std::vector<Vec2> with_darts(const std::vector<Vec2>& outline, const std::vector<std::vector<Vec2>>& darts) {
-  if (darts.empty()) return outline;
-  Loops cloth = darts;
-  cloth.push_back(outline);
-  std::vector<Vec2> largest = outline;
-  double most = 0.0;
-  for (const PolygonWithHoles& part : polygon_union(cloth)) {
-    if (area(part) <= most) continue;
-    most = area(part);
-    largest = part.outline;
-  }
-  return without_spikes(largest);
 }
 
 // "+2" for the second insertion of a panel, "-2" for its second removal.
@@ -97,168 +53,134 @@ DrawingLine closed(LineKind kind, std::vector<Vec2> points) {
   return {kind, std::move(points), true, {}};
 }
 
-double distance_to_line(const std::vector<Vec2>& line, const Vec2& p) {
-  double least = 1e300;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i)
-    least = std::min(least, distance_to_polygon({line[i], line[i + 1]}, p));
-  return least;
+// The border of a piece where it lies in the wanted panel.
+std::vector<Vec2> border_in_target(const PieceMap& map) {
+  std::vector<Vec2> outline;
+  for (int v = 0; v < map.border_count; ++v) outline.emplace_back(map.target.row(v).transpose() * kMmPerMetre);
+  return outline;
 }
 
-// For every segment of a closed outline: does it lie on one of the lines (closed or open)?
-std::vector<bool> lies_on(const std::vector<Vec2>& outline, const std::vector<std::vector<Vec2>>& lines,
-                          bool lines_closed) {
-  std::vector<bool> on;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 middle = 0.5 * (outline[i] + outline[(i + 1) % outline.size()]);
-    on.push_back(std::any_of(lines.begin(), lines.end(), [&](const auto& line) {
-      return (lines_closed ? distance_to_polygon(line, middle) : distance_to_line(line, middle)) < kTouch;
-    }));
-  }
-  return on;
-}
-
-// The outline grown by `marked` on marked segments and by `other` on the rest.
-std::vector<Vec2> grown(const std::vector<Vec2>& outline, const std::vector<bool>& mark, double marked, double other) {
-  std::vector<double> distances;
-  for (const bool on : mark) distances.push_back(on ? marked : other);
-  return offset_polygon(outline, distances);
-}
-
-// Middle of a polyline by arc length, with the unit direction there.
-struct Middle {
-  Vec2 at = Vec2::Zero(), along = Vec2::UnitX();
-};
-Middle middle_of(const std::vector<Vec2>& line) {
-  double length = 0.0;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) length += (line[i + 1] - line[i]).norm();
-  double rest = 0.5 * length;
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const double step = (line[i + 1] - line[i]).norm();
-    if (step > 0 && rest <= step)
-      return {line[i] + rest / step * (line[i + 1] - line[i]), (line[i + 1] - line[i]) / step};
-    rest -= step;
-  }
-  return {line.empty() ? Vec2(Vec2::Zero()) : line.front(), Vec2::UnitX()};
-}
-
-// Runs of marked segments round a closed outline, as polylines.
-std::vector<std::vector<Vec2>> marked_runs(const std::vector<Vec2>& outline, const std::vector<bool>& mark) {
-  const std::size_t n = outline.size();
-  std::vector<std::vector<Vec2>> runs;
-  std::size_t start = 0;
-  while (start < n && mark[start]) ++start;  // begin behind an unmarked segment; n: all are marked
-  for (std::size_t step = 1; step <= n; ++step) {
-    const std::size_t i = (start + step) % n;
-    if (!mark[i]) continue;
-    if (step == 1 || !mark[(i + n - 1) % n] || runs.empty()) runs.push_back({outline[i]});
-    runs.back().push_back(outline[(i + 1) % n]);
-  }
-  return runs;
-}
-
-DrawingNotch notch_at(const Vec2& at, const Vec2& inward, double allowance) {
-  return {NotchType::V, at - allowance * inward, inward, allowance > 0 ? std::min(5.0, 0.5 * allowance) : 4.0, 4.0, at};
+void name_region(const std::vector<Vec2>& outline, const std::string& words, DrawingPiece& piece) {
+  piece.texts.push_back({roomiest_point(outline).at, 4.0, words});
 }
 
 class AlterationDrawer {
  public:
   AlterationDrawer(const Pattern& pattern, const AlterPatternResult& alteration)
-      : pattern_(pattern), alteration_(alteration), before_(draw_pattern(pattern)) {
-    allowance_ = pattern.seam_allowance * kMmPerMetre;
+      : pattern_(pattern), alteration_(alteration), pieces_(draw_pattern(alteration.sewn.pattern)) {
+    for (std::size_t i = 0; i < alteration.sewn.pieces.size(); ++i) {
+      const SewnPiece& piece = alteration.sewn.pieces[i];
+      (piece.insertion >= 0 ? new_ : kept_)[piece.panel].push_back(i);
+    }
   }
 
   Drawing draw() {
     drawing_.title = pattern_.name;
-    for (std::size_t p = 0; p < alteration_.panels.size(); ++p) {
-      const PanelAlteration& panel = alteration_.panels[p];
-      const bool altered = !panel.insertions.empty() || !panel.removals.empty();
-      drawing_.pieces.push_back(altered ? kept_cloth(static_cast<int>(p)) : before_.pieces[p]);
-      if (panel.insertions.empty()) continue;
-      drawing_.pieces.push_back(as_sewn(panel, before_.pieces[p]));
-      for (const AlteredRegion& region : panel.insertions) add_insertion(panel, region);
-    }
+    for (int p = 0; p < static_cast<int>(alteration_.panels.size()); ++p) draw_panel(p);
     return std::move(drawing_);
   }
 
  private:
-  // Labels and grainline stay; the lines are those of the cut cloth.
-  DrawingPiece kept_cloth(int number) const {
-    const PanelAlteration& panel = alteration_.panels[static_cast<std::size_t>(number)];
-    DrawingPiece piece = before_.pieces[static_cast<std::size_t>(number)];
-    const auto darts = folded_darts(pattern_, number);
-    std::erase_if(piece.lines,
-                  [](const DrawingLine& line) { return line.kind == LineKind::Cut || line.kind == LineKind::Stitch; });
+  void draw_panel(int p) {
+    const PanelAlteration& panel = alteration_.panels[static_cast<std::size_t>(p)];
+    const bool altered = !panel.insertions.empty() || !panel.removals.empty();
+    for (const std::size_t i : kept_[p]) {
+      DrawingPiece piece = std::move(pieces_.pieces[i]);
+      if (alteration_.sewn.pieces[i].recut) piece.role = PieceRole::Insertion;
+      if (altered && kept_[p].size() == 1 && !alteration_.sewn.pieces[i].recut) show_original(panel, piece);
+      drawing_.pieces.push_back(std::move(piece));
+    }
+    if (kept_[p].size() > 1) drawing_.pieces.push_back(as_cut(p));
+    if (new_[p].empty()) return;
+    drawing_.pieces.push_back(as_sewn(p));
+    for (const std::size_t i : new_[p]) drawing_.pieces.push_back(insertion(i));
+  }
+
+  // What the cloth was before, and what of it is taken away.
+  static void show_original(const PanelAlteration& panel, DrawingPiece& piece) {
     std::vector<DrawingLine> lines = {closed(LineKind::Original, in_mm(panel.original))};
     for (const AlteredRegion& region : panel.removals) {
-      lines.push_back(closed(LineKind::Removal, in_mm(region.shape.outline)));
-      piece.texts.push_back({roomiest_point(in_mm(region.shape.outline)).at, 4.0, short_name(region, '-')});
-    }
-    const auto cuts = in_mm(panel.cut_lines);
-    for (const PolygonWithHoles& part : panel.kept) {
-      const std::vector<Vec2> outline = without_spikes(in_mm(part.outline));
-      const std::vector<Vec2> cloth = with_darts(outline, darts);
-      lines.push_back(closed(LineKind::Cut, grown(cloth, lies_on(cloth, cuts, false), 0.0, allowance_)));
-      lines.push_back(closed(LineKind::Stitch, outline));
-      for (const auto& hole : part.holes) lines.push_back(closed(LineKind::Stitch, in_mm(hole)));
-    }
-    for (const auto& cut : cuts) {
-      lines.push_back({LineKind::Insertion, cut, false, {}});
-      const auto [at, along] = middle_of(cut);
-      const Vec2 left(-along.y(), along.x());
-      piece.notches.push_back(notch_at(at, left, 0.0));
-      piece.notches.push_back(notch_at(at, -left, 0.0));
+      const std::vector<Vec2> outline = in_mm(region.shape.outline);
+      lines.push_back(closed(LineKind::Removal, outline));
+      name_region(outline, short_name(region, '-'), piece);
     }
     piece.lines.insert(piece.lines.begin(), lines.begin(), lines.end());
-    return piece;
   }
 
-  DrawingPiece as_sewn(const PanelAlteration& panel, const DrawingPiece& before) const {
+  DrawingPiece guide(int p, const char* suffix, const char* words) const {
+    const Panel& panel = pattern_.panels[static_cast<std::size_t>(p)];
     DrawingPiece piece;
-    piece.name = panel.panel + "_as_sewn";
-    piece.label = before.label + " as sewn";
+    piece.name = panel.name + suffix;
+    piece.label = (panel.piece_label.empty() ? panel.name : panel.piece_label) + words;
     piece.role = PieceRole::Guide;
     piece.quantity = 0;
-    for (const AlteredRegion& region : panel.insertions) {
-      const std::vector<Vec2> outline = in_mm(region.shape.outline);
-      piece.lines.push_back(closed(LineKind::Insertion, outline));
-      piece.texts.push_back({roomiest_point(outline).at, 4.0, short_name(region, '+')});
-    }
-    for (const auto& part : panel.kept_in_target) piece.lines.push_back(closed(LineKind::Internal, in_mm(part)));
-    const std::vector<Vec2> target = in_mm(panel.target);
-    piece.lines.push_back(closed(LineKind::Stitch, target));
-    const Vec2 middle = roomiest_point(target).at;
-    piece.texts.push_back({middle, 8.0, piece.label});
     return piece;
   }
 
-  void add_insertion(const PanelAlteration& panel, const AlteredRegion& region) {
-    const std::vector<Vec2> outline = without_spikes(in_mm(region.shape.outline));
-    const std::vector<bool> joins = lies_on(outline, in_mm(panel.kept_in_target), true);
-    DrawingPiece piece;
-    piece.name = piece.label = region.name;
-    piece.role = PieceRole::Insertion;
-    piece.lines = {closed(LineKind::Cut, grown(outline, joins, 2 * allowance_, allowance_)),
-                   closed(LineKind::Stitch, outline)};
-    for (const auto& hole : region.shape.holes) piece.lines.push_back(closed(LineKind::Stitch, in_mm(hole)));
-    const InnerPoint roomiest = roomiest_point(outline);
-    const auto [down, up] = chord_through(outline, roomiest.at, Vec2::UnitY());
-    const double half = 0.4 * std::min(-down, up);
-    piece.lines.push_back({LineKind::Grainline, {roomiest.at - Vec2(0, half), roomiest.at + Vec2(0, half)}, false, {}});
-    const std::vector<Vec2>& cut = piece.lines.front().points;
-    piece.texts = along_outline(cut, {short_name(region, '+') + " " + panel.panel, "cut 1"});
-    for (const auto& run : marked_runs(outline, joins)) {
-      const auto [at, along] = middle_of(run);
-      // The outline runs counter-clockwise: the piece lies on the left.
-      piece.notches.push_back(notch_at(at, Vec2(-along.y(), along.x()), 2 * allowance_));
+  // Where the kept pieces lie in the original cloth.
+  DrawingPiece as_cut(int p) const {
+    DrawingPiece piece = guide(p, "_as_cut", " as cut");
+    for (const std::size_t i : kept_.at(p)) {
+      const Panel& part = alteration_.sewn.pattern.panels[i];
+      const std::vector<Vec2> outline = in_mm(flatten_outline(part, 1e-4));
+      piece.lines.push_back(closed(LineKind::Stitch, outline));
+      name_region(outline, part.piece_label.empty() ? part.name : part.piece_label, piece);
     }
-    drawing_.pieces.push_back(std::move(piece));
+    show_original(alteration_.panels[static_cast<std::size_t>(p)], piece);
+    return piece;
+  }
+
+  // The wanted panel with everything in its place.
+  DrawingPiece as_sewn(int p) const {
+    const PanelAlteration& panel = alteration_.panels[static_cast<std::size_t>(p)];
+    DrawingPiece piece = guide(p, "_as_sewn", " as sewn");
+    for (const std::size_t i : new_.at(p)) {
+      const SewnPiece& sewn = alteration_.sewn.pieces[i];
+      const std::vector<Vec2> outline = border_in_target(sewn.map);
+      piece.lines.push_back(closed(LineKind::Insertion, outline));
+      name_region(outline, short_name(panel.insertions[static_cast<std::size_t>(sewn.insertion)], '+'), piece);
+    }
+    for (const std::size_t i : kept_.at(p))
+      piece.lines.push_back(closed(LineKind::Internal, border_in_target(alteration_.sewn.pieces[i].map)));
+    const std::vector<Vec2> target = in_mm(panel.target);
+    piece.lines.push_back(closed(LineKind::Stitch, target));
+    piece.texts.push_back({roomiest_point(target).at, 8.0, piece.label});
+    return piece;
+  }
+
+  // New cloth is often a narrow strip: its words run along it.
+  DrawingPiece insertion(std::size_t i) {
+    DrawingPiece piece = std::move(pieces_.pieces[i]);
+    const SewnPiece& sewn = alteration_.sewn.pieces[i];
+    const PanelAlteration& panel = alteration_.panels[static_cast<std::size_t>(sewn.panel)];
+    piece.role = PieceRole::Insertion;
+    std::erase_if(piece.texts,
+                  [&](const DrawingText& text) { return text.text == piece.label || text.text.starts_with("cut "); });
+    const AlteredRegion& region = panel.insertions[static_cast<std::size_t>(sewn.insertion)];
+    for (DrawingText& text :
+         along_outline(in_mm(flatten_outline(alteration_.sewn.pattern.panels[i], 1e-4)),
+                       {short_name(region, '+') + " " + panel.panel, "cut " + std::to_string(piece.quantity)}))
+      piece.texts.push_back(std::move(text));
+    return piece;
   }
 
   const Pattern& pattern_;
   const AlterPatternResult& alteration_;
-  Drawing before_, drawing_;
-  double allowance_ = 10.0;  // mm
+  Drawing pieces_, drawing_;
+  std::map<int, std::vector<std::size_t>> kept_, new_;  // per panel, numbers of sewn pieces
 };
+
+// Where no sewn pattern could be made: the panels as they were, with what is to be done to them.
+Drawing draw_unsewn(const Pattern& pattern, const AlterPatternResult& alteration) {
+  Drawing drawing = draw_pattern(pattern);
+  for (std::size_t p = 0; p < alteration.panels.size(); ++p) {
+    for (const AlteredRegion& region : alteration.panels[p].removals)
+      drawing.pieces[p].lines.push_back(closed(LineKind::Removal, in_mm(region.shape.outline)));
+    for (const auto& cut : alteration.panels[p].cut_lines)
+      drawing.pieces[p].lines.push_back({LineKind::Insertion, in_mm(cut), false, {}});
+  }
+  return drawing;
+}
 
 // One line per tear of a pass: "2: edge 4, 12.0 mm open".
 std::vector<std::string> tear_words(const PanelTearing& tearing, const char* pass) {
@@ -272,6 +194,7 @@ std::vector<std::string> tear_words(const PanelTearing& tearing, const char* pas
 }  // namespace
 
 Drawing draw_alteration(const Pattern& pattern, const AlterPatternResult& alteration) {
+  if (alteration.sewn.pieces.empty()) return draw_unsewn(pattern, alteration);
   return AlterationDrawer(pattern, alteration).draw();
 }
 
@@ -288,7 +211,7 @@ Drawing draw_tears(const Pattern& pattern, const AlterPatternResult& alteration)
     piece.lines = {closed(LineKind::Stitch, original)};
     for (const AlteredRegion& region : panel.removals)
       piece.lines.push_back(closed(LineKind::Removal, in_mm(region.shape.outline)));
-    for (const auto& cut : in_mm(panel.cut_lines)) piece.lines.push_back({LineKind::Insertion, cut, false, {}});
+    for (const auto& cut : panel.cut_lines) piece.lines.push_back({LineKind::Insertion, in_mm(cut), false, {}});
     const auto [low, high] = bounds(piece);
     piece.texts.push_back({Vec2(0.5 * (low.x() + high.x()), high.y() + 12), 10.0, panel.panel});
     for (std::size_t i = 0; i < words.size(); ++i)

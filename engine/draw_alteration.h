@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draw an altered pattern: what to cut off the garment's panels, where to let cloth in, and the pieces to cut anew.
+// Draw an altered pattern: the pieces of the sewn pattern as draw_pattern draws them, and what they come from.
 //
-// Panels that stay as they are: as draw_pattern draws them. Altered ones: their outline before, the kept cloth with a
-// seam allowance where cloth is taken away, removals in red, cuts and notches. Where cloth is let in, a guide shows
-// the panel as it will be sewn, insertions in blue. Every insertion is a piece of its own: grain of its panel,
-// allowance all round, twice the allowance where it meets the cut cloth, because that cloth turns in one allowance of
-// its own; notches in the middle of every such seam, on the insertion and on the cut cloth.  Millimetres.
+// A kept panel shows its outline before and what is taken away in red; where it is cut apart, a guide shows the parts
+// in their place. Where cloth is let in, a guide shows the panel as it will be sewn, insertions in blue; every
+// insertion is a piece of its own. Kept cloth turns in one allowance where it is cut open, so that cut line and stitch
+// line lie one allowance apart on every piece.  Millimetres.
 #pragma once
 
 #include "engine/alter/alter_pattern.h"

@@ -102,9 +102,25 @@ Record head_record(const char* kind, const AlterOptions& options, const JobInfo&
   return record;
 }
 
+// Made when it is first asked for.
+template <class T>
+class OnDemand {
+ public:
+  explicit OnDemand(std::function<T()> make) : make_(std::move(make)) {}
+  const T& value() {
+    if (!value_) value_ = make_();
+    return *value_;
+  }
+
+ private:
+  std::function<T()> make_;
+  std::optional<T> value_;
+};
+
 // One scale for all pictures of a job.
 ViewOptions views_of(const char* title) {
   ViewOptions views;
+  views.view_height = views.max_view_width = 540;  // as wide as a report shows them
   views.title = title;
   views.marks = 3;
   return views;
@@ -139,9 +155,9 @@ struct Fits {
 
 io::HtmlTable zone_table(const Fits& fits) {
   io::HtmlTable table{"Stretch that differs from the reference fit, in percent",
-                      {"zone", "before, weft", "before, warp", "target pattern, weft", "target pattern, warp"},
+                      {"zone", "before, weft", "before, warp", "ideal, weft", "ideal, warp"},
                       {}};
-  if (fits.after) table.columns.insert(table.columns.end(), {"altered, weft", "altered, warp"});
+  if (fits.after) table.columns.insert(table.columns.end(), {"after, weft", "after, warp"});
   const auto add = [&](std::string_view zone, const auto& difference) {
     std::vector<std::string> row = {std::string(zone)};
     for (const FitComparison* fit : {&fits.before, &fits.ideal, fits.after ? &*fits.after : nullptr}) {
@@ -200,7 +216,8 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
   const Pattern& pattern = r.reference.pattern;
   const PatternMesh& mesh = r.reference.mesh;
   const Pattern& target_pattern = r.derived.drawn.pattern;
-  const Drawing drawing = draw_alteration(pattern, r.altered);
+  OnDemand<Drawing> drawing([&] { return draw_alteration(pattern, r.altered); });
+  OnDemand<Bytes> inlined([&] { return io::write_svg(drawing.value(), kInlined); });
   const Ticket ticket = named_ticket(r, info);
   const std::vector<BodyZone> zones = body_zones(pattern, mesh, r.reference.drape.drape, r.reference.body);
   const bool worn_after = r.after && r.after->problem.empty();
@@ -226,16 +243,17 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
     outputs.make("altered_pattern.json", kJson, [&] {
       return bytes_of(io::write_altered_pattern(r.altered.sewn.pattern, altered_pattern_record(r.altered)));
     });
-  outputs.make("altered_pattern.svg", kSvg, [&] { return io::write_svg(drawing); });
-  outputs.make("altered_pattern.dxf", "image/vnd.dxf", [&] { return io::write_dxf(drawing); });
+  outputs.make("altered_pattern.svg", kSvg, [&] { return io::write_svg(drawing.value()); });
+  outputs.make("altered_pattern.dxf", "image/vnd.dxf", [&] { return io::write_dxf(drawing.value()); });
   for (const auto& [name, sheet] : kPrints)
-    outputs.make(name, "application/pdf", [&, paper = sheet] { return io::write_pdf(drawing, {paper, {}}); });
-  const Bytes* pattern_png = outputs.make("pattern.png", kPng, [&] { return write_png(draw_picture(drawing)); });
+    outputs.make(name, "application/pdf", [&, paper = sheet] { return io::write_pdf(drawing.value(), {paper, {}}); });
+  const Bytes* pattern_png =
+      outputs.make("pattern.png", kPng, [&] { return write_png(draw_picture(drawing.value())); });
   outputs.make("tears.png", kPng, [&] { return write_png(draw_picture(draw_tears(pattern, r.altered))); });
   outputs.make("target_pattern.json", kJson, [&] { return bytes_of(io::write_garmentcode(target_pattern)); });
   outputs.make("target_pattern.svg", kSvg, [&] { return io::write_svg(draw_changes(pattern, target_pattern)); });
   outputs.make("ticket.json", kJson, [&] { return write_json(io::ticket_record(ticket)); });
-  outputs.make("ticket.html", kHtml, [&] { return io::write_ticket_html(ticket, io::write_svg(drawing, kInlined)); });
+  outputs.make("ticket.html", kHtml, [&] { return io::write_ticket_html(ticket, inlined.value()); });
   outputs.make("reference_drape.obj", kObj,
                [&] { return io::write_drape_obj(pattern, mesh, r.reference.drape.drape); });
   outputs.make("target_before.obj", kObj, [&] { return io::write_drape_obj(pattern, mesh, r.before.drape); });
@@ -267,7 +285,7 @@ std::vector<OutputFile> alter_outputs(const AlterResult& r, const AlterOptions& 
     report.summary = summary_of(ticket, fits);
     report.zones = {zone_table(fits)};
     report.ticket = &ticket;
-    report.pattern_svg = io::write_svg(drawing, kInlined);
+    report.pattern_svg = inlined.value();
     report.quality = quality_record(r.before.quality);
     for (const auto& [name, value] : r.target_body.measurements) report.measurements.add(name + "_m", value);
     report.options = io::options_record(options);

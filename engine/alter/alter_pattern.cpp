@@ -162,6 +162,7 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
   sum_up(result);
   read_operations(pattern, mesh, inserting, removing, options, result);
   result.sewn = sew_altered(pattern, mesh, target_rest, inserting, removing, result);
+  tell_ticket(result.sewn, result.ticket);
   return result;
 }
 

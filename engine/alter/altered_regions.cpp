@@ -19,6 +19,7 @@ constexpr double kSlit = 5e-5;        // m: half the width of a cut that is sewn
 constexpr double kOnBorder = 3e-4;    // m: a lip this near to an insertion opens into it
 constexpr double kLeastPiece = 4e-4;  // m^2: smaller kept pieces go with the insertion beside them
 constexpr double kCorner = 30.0 * kRadianPerDegree;
+constexpr double kReach = 4e-3;  // m: over which the direction of a border is taken
 
 double turn(const Vec2& in, const Vec2& out) {
   return std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
@@ -29,30 +30,64 @@ Vec2 left_of(const Vec2& way) {
   return length > 0 ? Vec2(-way.y() / length, way.x() / length) : Vec2::Zero();
 }
 
-struct Lip {
-  Vec2 from, to;  // cloth on the left
-};
-
-// Edges of the stretched cloth that a cut made.
-std::vector<Lip> lips_of(const Sheet& sheet) {
-  std::vector<Lip> lips;
-  for (const BorderEdge& edge : border_edges(sheet))
-    if (edge.side < 0)
-      lips.push_back({sheet.vertices[static_cast<std::size_t>(edge.from)].now,
-                      sheet.vertices[static_cast<std::size_t>(edge.to)].now});
+// Borders that a cut made in the stretched cloth, each in one go; cloth on the left.
+std::vector<std::vector<Vec2>> lips_of(const Sheet& sheet) {
+  std::vector<std::vector<Vec2>> lips;
+  const auto now = [&](int v) { return sheet.vertices[static_cast<std::size_t>(v)].now; };
+  for (const auto& loop : border_loops(sheet)) {
+    const std::size_t count = loop.size();
+    std::size_t first = 0;
+    while (first < count && !(loop[first].side < 0 && loop[(first + count - 1) % count].side >= 0)) ++first;
+    for (std::size_t k = 0; k < count && first < count; ++k) {
+      const BorderEdge& edge = loop[(first + k) % count];
+      if (edge.side >= 0) continue;
+      if (loop[(first + k + count - 1) % count].side >= 0) lips.push_back({now(edge.from)});
+      lips.back().push_back(now(edge.to));
+    }
+  }
   return lips;
 }
 
-// The strip of kept cloth along the lips that open into an insertion: what is turned in.
-Loops turned_in(const std::vector<Lip>& lips, const std::vector<Vec2>& insertion, double width) {
-  Loops strips;
-  for (const Lip& lip : lips) {
-    const Vec2 way = lip.to - lip.from;
-    if (way.norm() < 1e-9 || distance_to_polygon(insertion, 0.5 * (lip.from + lip.to)) > kOnBorder) continue;
-    // Longer than the lip, so that neighbouring strips overlap and the last one reaches the outline.
-    const Vec2 along = width * way.normalized(), in = width * left_of(way), back = kSamePoint * left_of(way);
-    strips.push_back({lip.from - along - back, lip.to + along - back, lip.to + along + in, lip.from - along + in});
+// The parts of a lip that open into an insertion.
+std::vector<std::vector<Vec2>> open_runs(const std::vector<Vec2>& lip, const std::vector<Vec2>& insertion) {
+  std::vector<std::vector<Vec2>> runs;
+  bool open = false;
+  for (std::size_t i = 0; i + 1 < lip.size(); ++i) {
+    const bool opens = distance_to_polygon(insertion, 0.5 * (lip[i] + lip[i + 1])) < kOnBorder;
+    if (opens && !open) runs.push_back({lip[i]});
+    if (opens) runs.back().push_back(lip[i + 1]);
+    open = opens;
   }
+  return runs;
+}
+
+// A line moved to its left, mitred, and drawn out at both ends.
+std::vector<Vec2> moved_left(const std::vector<Vec2>& line, double distance, double longer) {
+  std::vector<Vec2> moved;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const Vec2 in = i > 0 ? line[i] - line[i - 1] : line[1] - line[0];
+    const Vec2 out = i + 1 < line.size() ? line[i + 1] - line[i] : in;
+    const Vec2 a = left_of(in), b = left_of(out);
+    Vec2 mitre = a + b;
+    mitre = mitre.squaredNorm() > 1e-6 ? Vec2(mitre * (2.0 / std::max(0.5, mitre.squaredNorm()))) : in.normalized();
+    Vec2 end = Vec2::Zero();
+    if (i == 0) end = -longer * out.normalized();
+    if (i + 1 == line.size()) end = longer * in.normalized();
+    moved.emplace_back(line[i] + distance * mitre + end);
+  }
+  return moved;
+}
+
+// The strip of kept cloth along the lips that open into an insertion: what is turned in.
+Loops turned_in(const std::vector<std::vector<Vec2>>& lips, const std::vector<Vec2>& insertion, double width) {
+  Loops strips;
+  for (const std::vector<Vec2>& lip : lips)
+    for (const std::vector<Vec2>& run : open_runs(lip, insertion)) {
+      std::vector<Vec2> strip = moved_left(run, -kSamePoint, width);
+      const std::vector<Vec2> inner = moved_left(run, width, width);
+      strip.insert(strip.end(), inner.rbegin(), inner.rend());
+      strips.push_back(std::move(strip));
+    }
   return strips;
 }
 
@@ -111,7 +146,7 @@ class PanelParter {
   }
 
  private:
-  void grow_insertions(const std::vector<Lip>& lips, const std::vector<bool>& let_out, double turn_in);
+  void grow_insertions(const std::vector<std::vector<Vec2>>& lips, const std::vector<bool>& let_out, double turn_in);
   void part_kept_cloth();
   void give_away(const std::vector<Vec2>& piece);
   void share_borders();
@@ -131,7 +166,8 @@ class PanelParter {
   AlteredParts result_;
 };
 
-void PanelParter::grow_insertions(const std::vector<Lip>& lips, const std::vector<bool>& let_out, double turn_in) {
+void PanelParter::grow_insertions(const std::vector<std::vector<Vec2>>& lips, const std::vector<bool>& let_out,
+                                  double turn_in) {
   Loops others;  // grown already, or with cloth of their own
   for (std::size_t i = 0; i < alteration_.insertions.size(); ++i)
     if (!let_out[i]) others.push_back(alteration_.insertions[i].shape.outline);
@@ -240,22 +276,45 @@ void PanelParter::name_border(RegionBorder& border, int part, const std::map<std
   tracks_.nearest_edge(a, b, border);
 }
 
+// How much a part's border turns at its point k, taken over a reach so that crumbs of borders do not count.
+double turn_at(const AlteredParts& parts, const AlteredPart& part, std::size_t k) {
+  const std::size_t count = part.loop.size();
+  const auto at = [&](std::size_t i) -> const Vec2& {
+    return parts.points[static_cast<std::size_t>(part.loop[i % count].from)];
+  };
+  std::size_t before = k + count, after = k;
+  while (before > k + 1 && (at(before) - at(k)).norm() < kReach) --before;
+  while (after + 1 < k + count && (at(after) - at(k)).norm() < kReach) ++after;
+  return turn(at(k) - at(before), at(after) - at(k));
+}
+
 // Borders turn or end where what lies beyond changes, where they bend, and at corners of the cloth.
 void PanelParter::mark_corners() {
   result_.corner.assign(result_.points.size(), false);
-  std::set<std::array<long, 2>> known;
-  for (const AlteredPart& part : result_.parts)
-    for (std::size_t k = 0; k < part.loop.size(); ++k) {
-      const RegionBorder &in = part.loop[k], &out = part.loop[(k + 1) % part.loop.size()];
-      const auto at = [&](int p) -> const Vec2& { return result_.points[static_cast<std::size_t>(p)]; };
-      const bool bends = std::abs(turn(at(in.to) - at(in.from), at(out.to) - at(out.from))) > kCorner;
+  for (const AlteredPart& part : result_.parts) {
+    const std::size_t count = part.loop.size();
+    std::vector<double> turns;
+    for (std::size_t k = 0; k < count; ++k) turns.push_back(std::abs(turn_at(result_, part, k)));
+    const auto at = [&](std::size_t k) -> const Vec2& {
+      return result_.points[static_cast<std::size_t>(part.loop[k % count].from)];
+    };
+    const auto sharpest = [&](std::size_t k) {
+      for (std::size_t i = k + 1; i < k + count && (at(i) - at(k)).norm() < kReach; ++i)
+        if (turns[i % count] > turns[k]) return false;
+      for (std::size_t i = k + count - 1; i > k && (at(i) - at(k)).norm() < kReach; --i)
+        if (turns[i % count] > turns[k]) return false;
+      return true;
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+      const RegionBorder &in = part.loop[(k + count - 1) % count], &out = part.loop[k];
       const bool changes = in.neighbour != out.neighbour || in.track != out.track;
+      const bool bends = in.neighbour >= 0 && turns[k] > kCorner && sharpest(k);
       const bool cloth_corner =
           in.neighbour >= 0 && std::any_of(cloth_corners_.begin(), cloth_corners_.end(),
-                                           [&](const Vec2& p) { return (p - at(in.to)).norm() < kSamePoint; });
-      if (changes || cloth_corner || (bends && in.neighbour >= 0))
-        result_.corner[static_cast<std::size_t>(in.to)] = true;
+                                           [&](const Vec2& p) { return (p - at(k)).norm() < kSamePoint; });
+      if (changes || bends || cloth_corner) result_.corner[static_cast<std::size_t>(out.from)] = true;
     }
+  }
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ PieceCloth mesh_part(const AlteredParts& parts, const AlteredPart& part, double 
     cloth.problem = "a piece's outline touches itself";
     return cloth;
   }
-  cloth.border_count = static_cast<int>(outline.size());
+  cloth.map.border_count = static_cast<int>(outline.size());
   const PolygonMesh mesh = mesh_polygon(outline, edge_length);
   cloth.map.target.resize(static_cast<Eigen::Index>(mesh.points.size()), 2);
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
@@ -104,7 +104,7 @@ void attach_borders(const AlteredPart& part, const PieceCloth& cloth, const Shee
     for (length = 1; k + length < count && same(begin, (begin + length) % count);) ++length;
     const int from = cloth.border[begin], to = cloth.border[(begin + length) % count];
     std::vector<int> vertices = {from};
-    do vertices.push_back((vertices.back() + 1) % cloth.border_count);
+    do vertices.push_back((vertices.back() + 1) % cloth.map.border_count);
     while (vertices.back() != to);
     std::vector<Vec2> curve;
     double walked = 0.0;

@@ -11,7 +11,6 @@ namespace toile {
 struct PieceCloth {
   PieceMap map;
   std::vector<int> border;  // vertex of the map per border of the part, where that begins
-  int border_count = 0;     // the map's first vertices, in order round the part
   double strain = 0.0, turned_over = 0.0;
   std::string problem;  // why there is no such cloth, or empty
 };

@@ -13,7 +13,8 @@ namespace {
 constexpr double kOnCurve = 6e-4;     // m: a chain this near to an original edge is a part of it
 constexpr double kSameCorner = 1e-3;  // m: so is a corner
 constexpr double kStraight = 2e-4;    // m
-constexpr double kSmooth = 3e-4;      // m: of a Bézier through the chain's points
+constexpr double kSmooth = 8e-4;      // m: of a Bézier through the chain's points
+constexpr double kSameLength = 3e-4;  // m: of such a Bézier and the chain
 constexpr double kPolyline = 5e-5;    // m: of the polyline where no Bézier follows
 
 struct OriginalPart {
@@ -96,7 +97,7 @@ EdgeCurve curve_through(const std::vector<Vec2>& points) {
     for (std::size_t i = 1; i + 1 < points.size(); ++i)
       parameters.push_back((walked += (points[i] - points[i - 1]).norm()) / length);
     const CurveFit fit = fit_curve(guess, {points.begin() + 1, points.end() - 1}, parameters);
-    if (fit.deviation < kSmooth && std::abs(curve_length(fit.curve) - length) < kSmooth) return fit.curve.shape;
+    if (fit.deviation < kSmooth && std::abs(curve_length(fit.curve) - length) < kSameLength) return fit.curve.shape;
   }
   curve.points = thinned(points, kPolyline);
   if (!curve.points.empty()) curve.kind = CurveKind::Polyline;

@@ -16,6 +16,7 @@ namespace {
 constexpr double kMostTurnedOver = 0.005;  // share of a piece's area
 constexpr double kLeastTurnIn = 1e-3;      // m: a cut is opened by this much even without seam allowance
 constexpr double kNotchedSeam = 0.06;      // m: longer new seams get a notch in their middle
+constexpr double kTurnedInArea = 1e-4;     // m^2: a piece larger by more was widened for what is turned in
 constexpr double kLeastEdge = 3e-4;        // m: shorter chains are left out
 
 struct DrawnPiece {
@@ -134,7 +135,7 @@ std::string Sewing::try_panel(int p, const AlteredParts& parts, bool recut) {
     if (cloth.turned_over > kMostTurnedOver) return "its cloth turns over";
     PieceBorder border{p, static_cast<int>(i), {}, part.loop};
     std::vector<Vec2> outline;
-    for (int v = 0; v < cloth.border_count; ++v) outline.emplace_back(cloth.map.rest.row(v));
+    for (int v = 0; v < cloth.map.border_count; ++v) outline.emplace_back(cloth.map.rest.row(v));
     if (!is_simple_polygon(outline)) return "the outline of a kept piece crosses itself";
     for (std::size_t k = 0; k < part.loop.size(); ++k) {
       const int point = part.loop[k].from;
@@ -382,7 +383,34 @@ void Sewing::add_pins() {
       if (side.panel.valid()) sewn_.pattern.pins.push_back(side);
 }
 
+const Panel* panel_named(const Pattern& pattern, const std::string& name) {
+  for (const Panel& panel : pattern.panels)
+    if (panel.name == name) return &panel;
+  return nullptr;
+}
+
 }  // namespace
+
+void tell_ticket(const SewnPattern& sewn, Ticket& ticket) {
+  bool turned_in = false;
+  for (TicketOperation& operation : ticket.operations)
+    for (TicketPiece& piece : operation.pieces) {
+      const Panel* panel = panel_named(sewn.pattern, piece.name);
+      if (!panel) continue;
+      Vec2 low = panel->corners.front(), high = low;
+      for (const Vec2& p : flatten_outline(*panel, 1e-4)) low = low.cwiseMin(p), high = high.cwiseMax(p);
+      const double size = std::abs(outline_signed_area(*panel));
+      turned_in = turned_in || size > piece.area + kTurnedInArea;
+      piece.width = high.x() - low.x();
+      piece.length = high.y() - low.y();
+      piece.area = size;
+    }
+  if (turned_in)
+    ticket.notes.push_back(
+        "Where cloth is cut open it turns in one seam allowance; the pieces let in there are that much wider on every "
+        "such side.");
+  ticket.notes.insert(ticket.notes.end(), sewn.flags.begin(), sewn.flags.end());
+}
 
 SewnPattern sew_altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
                         const TornPattern& inserting, const TornPattern& removing, const AlterPatternResult& result) {

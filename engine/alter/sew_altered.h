@@ -17,4 +17,7 @@ namespace toile {
 SewnPattern sew_altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
                         const TornPattern& inserting, const TornPattern& removing, const AlterPatternResult& result);
 
+// Gives the ticket's pieces the sizes they have in the sewn pattern, and says what else the person who sews must know.
+void tell_ticket(const SewnPattern& sewn, Ticket& ticket);
+
 }  // namespace toile

@@ -10,6 +10,7 @@ namespace toile {
 struct PieceMap {
   Points2 rest, target;
   Triangles triangles;
+  int border_count = 0;  // the first vertices are its border, counter-clockwise
 };
 
 struct SewnPiece {

@@ -108,6 +108,7 @@ std::string write_garmentcode(const Pattern& pattern) {
 
 std::string write_altered_pattern(const Pattern& pattern, const Record& alteration) {
   json document = document_of(pattern);
+  document["schema"] = "toile/altered_pattern/1";
   document["alteration"] = json::parse(write_json(alteration));
   return document.dump(1) + "\n";
 }

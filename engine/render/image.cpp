@@ -28,8 +28,27 @@ void paste(Image& image, const Image& part, int x, int y) {
   }
 }
 
+namespace {
+
+// Means of 2 x 2 pixels: what nearly every picture needs, without a division.
+Image halved(const Image& image) {
+  Image small(std::max(1, image.width / 2), std::max(1, image.height / 2), {});
+  for (int y = 0; y < small.height; ++y) {
+    const std::uint8_t* above = &image.rgb[image.offset(0, 2 * y)];
+    const std::uint8_t* below = &image.rgb[image.offset(0, 2 * y + 1)];
+    std::uint8_t* out = &small.rgb[small.offset(0, y)];
+    for (int x = 0; x < small.width; ++x, above += 6, below += 6, out += 3)
+      for (int k = 0; k < 3; ++k)
+        out[k] = static_cast<std::uint8_t>((above[k] + above[k + 3] + below[k] + below[k + 3] + 2u) >> 2);
+  }
+  return small;
+}
+
+}  // namespace
+
 Image downsample(const Image& image, int factor) {
   if (factor <= 1) return image;
+  if (factor == 2 && image.width > 1 && image.height > 1) return halved(image);
   Image small(std::max(1, image.width / factor), std::max(1, image.height / factor), {});
   const unsigned count = static_cast<unsigned>(factor * factor);
   for (int y = 0; y < small.height; ++y) {

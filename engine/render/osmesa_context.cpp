@@ -66,7 +66,11 @@ void draw_batch(const RasterBatch& batch, int width, int height, Rgb background)
 
 Image without_alpha(const std::vector<std::uint8_t>& rgba, int width, int height) {
   Image image(width, height, {});
-  for (std::size_t i = 0, o = 0; o < image.rgb.size(); i += 4, o += 3) std::copy_n(&rgba[i], 3, &image.rgb[o]);
+  for (std::size_t i = 0, o = 0; o < image.rgb.size(); i += 4, o += 3) {
+    image.rgb[o] = rgba[i];
+    image.rgb[o + 1] = rgba[i + 1];
+    image.rgb[o + 2] = rgba[i + 2];
+  }
   return image;
 }
 

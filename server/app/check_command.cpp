@@ -22,7 +22,7 @@ bool looks_like_json(const Bytes& bytes) {
 
 // What a schema cannot say: outlines, seams, ranges that hang together.
 void check_contents(const Bytes& bytes, const std::string& schema, Context& context) {
-  if (schema == "garment") import_pattern(bytes, &context.progress);
+  if (schema == "garment" || schema == "altered_pattern") import_pattern(bytes, &context.progress);
   if (schema == "options") io::read_options(bytes);
 }
 
