@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The energy whose least value is the drape: membrane + bending + gravity + contact + friction + holds + pins. J.
+// The energy whose least value is the drape: membrane + bending + gravity + contact + friction + cloth on cloth
+// + holds + pins. J.
 #pragma once
 
+#include "engine/sim/cloth_contact.h"
 #include "engine/sim/contact.h"
 
 namespace toile {
@@ -27,6 +29,7 @@ class DrapeEnergy {
 
   std::vector<Hold> holds;
   std::vector<Pin> pins;
+  ClothContact* cloth_contact = nullptr;  // must outlive the energy; null: cloth passes through cloth
 
   // Energy at `nodes` (#N x 3); `gradient` is overwritten, N.
   double evaluate(const Points3& nodes, Points3& gradient);

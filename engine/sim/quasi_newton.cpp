@@ -61,9 +61,15 @@ bool QuasiNewton::search_line(const Energy& energy) {
   double step = longest > options_.largest_move ? options_.largest_move / longest : 1.0;
   for (int i = 0; i <= options_.most_halvings; ++i, step *= 0.5) {
     trial_ = nodes_ + step * direction_;
+    double predicted = step * slope;
+    if (limit_) {
+      limit_(nodes_, trial_);
+      predicted = gradient_.cwiseProduct(trial_ - nodes_).sum();
+      if (!(predicted < 0)) continue;
+    }
     const double trial_energy = energy(trial_, trial_gradient_);
     ++evaluations_;
-    if (trial_energy <= energy_ + options_.sufficient * step * slope) {  // false for NaN
+    if (trial_energy <= energy_ + options_.sufficient * predicted) {  // false for NaN
       energy_ = trial_energy;
       return true;
     }

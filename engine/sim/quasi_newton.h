@@ -21,6 +21,8 @@ struct QuasiNewtonOptions {
 class QuasiNewton {
  public:
   using Energy = std::function<double(const Points3& nodes, Points3& gradient)>;
+  // Shortens a move so that it stays within what is allowed; the move may turn a little.
+  using Limit = std::function<void(const Points3& from, Points3& to)>;
 
   QuasiNewton(int node_count, const QuasiNewtonOptions& options);
 
@@ -33,6 +35,9 @@ class QuasiNewton {
   // nodes are as good as the arithmetic allows.
   bool step(const Energy& energy, RowSolver& matrix);
 
+  // Applied to every trial of the line search; none by default.
+  void set_limit(Limit limit) { limit_ = std::move(limit); }
+
   const Points3& nodes() const { return nodes_; }
   const Points3& gradient() const { return gradient_; }
   double energy() const { return energy_; }
@@ -44,6 +49,7 @@ class QuasiNewton {
   void remember();
 
   QuasiNewtonOptions options_;
+  Limit limit_;
   Points3 nodes_, gradient_, trial_, trial_gradient_, direction_, right_;
   std::vector<Points3> moves_, changes_;
   std::vector<double> inverse_curvature_, weight_;

@@ -12,10 +12,13 @@ namespace {
 
 // Shares of the contact and hold stiffness in the matrix, and the length over which weight acts as a spring:
 // measured best of a few (design/sewing.md F).
-constexpr double kContactShare = 0.4, kHoldShare = 0.3, kWeightLength = 0.3;
+constexpr double kContactShare = 0.4, kHoldShare = 0.3, kWeightLength = 0.3, kLayerShare = 0.4;
 
 // Nodes of a start this close to the body are taken as touching it, m: the sewing leaves them within 0.2 mm.
 constexpr double kStartReach = 0.001;
+
+// Layers that are far apart are looked for that many times more rarely.
+constexpr int kIdle = 2;
 
 class Relaxation {
  public:
@@ -35,21 +38,36 @@ class Relaxation {
     for (const Hold& hold : energy_.holds)
       if (nodes(hold.node, 1) < hold.height) matrix.coeffRef(hold.node, hold.node) += kHoldShare * hold.stiffness;
     for (const Pin& pin : energy_.pins) matrix.coeffRef(pin.node, pin.node) += pin.stiffness;
+    if (energy_.cloth_contact) matrix += layers(nodes);
     if (!solver_.factor(matrix))
       throw Error(ErrorCode::DrapeFailed, "garment",
                   "the cloth's stiffness matrix cannot be factored; check the fabric");
+  }
+
+  // Layers that touch move together easily, apart with difficulty.
+  SparseMatrix layers(const Points3& nodes) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    energy_.cloth_contact->add_stiffness(nodes, entries);
+    SparseMatrix matrix(nodes.rows(), nodes.rows());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return kLayerShare * matrix;
   }
 
   RelaxResult run(const Points3& start, Progress* progress) {
     QuasiNewton minimiser(energy_.cloth().node_count, options_.quasi_newton);
     const QuasiNewton::Energy evaluate = [this](const Points3& x, Points3& g) { return energy_.evaluate(x, g); };
     if (energy_.contact()) freeze_at_start(start);
+    if (ClothContact* self = energy_.cloth_contact) {
+      self->refresh(start);
+      minimiser.set_limit([self](const Points3& from, Points3& to) { self->limit(from, to); });
+    }
     minimiser.start(start, evaluate);
     watched_ = watched_means(start);
     while (result_.iterations < options_.iterations && !done()) {
       report(progress, "drape", static_cast<double>(result_.iterations) / options_.iterations);
       const bool whole = run_round(minimiser, evaluate, progress);
       if (energy_.contact()) energy_.contact()->freeze_friction(minimiser.nodes());
+      if (energy_.cloth_contact) energy_.cloth_contact->refresh(minimiser.nodes());
       minimiser.refresh(evaluate);
       judge(minimiser, whole);
     }
@@ -67,13 +85,29 @@ class Relaxation {
     for (int i = 0; i < options_.round && result_.iterations < options_.iterations; ++i) {
       check_cancelled(progress);
       if (energy_.residual(minimiser.gradient()) < options_.stop_residual) return false;
+      look_around(minimiser, evaluate);
       if (result_.iterations % options_.refactor == 0) factor(minimiser.nodes());
       ++result_.iterations;
-      const bool moved = minimiser.step(evaluate, solver_);
+      bool moved = minimiser.step(evaluate, solver_);
+      if (!moved && energy_.cloth_contact) {  // planes between layers may be in the way: take up new ones
+        energy_.cloth_contact->refresh(minimiser.nodes());
+        minimiser.refresh(evaluate);
+        moved = minimiser.step(evaluate, solver_);
+      }
       result_.stalled = !moved && i == 0;  // not even with friction frozen anew and the history forgotten
       if (!moved) return false;
     }
     return true;
+  }
+
+  void look_around(QuasiNewton& minimiser, const QuasiNewton::Energy& evaluate) {
+    ClothContact* self = energy_.cloth_contact;
+    if (!self) return;
+    const int wait = self->planes() == 0 ? kIdle * options_.look_around : options_.look_around;
+    if (!self->stale() && result_.iterations - looked_at_ < wait) return;
+    looked_at_ = result_.iterations;
+    self->refresh(minimiser.nodes());
+    minimiser.refresh(evaluate);
   }
 
   void judge(const QuasiNewton& minimiser, bool whole_round) {
@@ -110,6 +144,7 @@ class Relaxation {
   Eigen::VectorXd contact_diagonal_;
   RowSolver solver_;
   std::vector<Vec3> watched_;
+  int looked_at_ = 0;  // iteration of the last look around
   RelaxResult result_;
 };
 

@@ -13,6 +13,7 @@ struct RelaxOptions {
   int iterations = 1500;          // at most, over all rounds
   int round = 100;                // iterations after which friction is frozen anew and the settling is looked at
   int refactor = 100;             // iterations after which the matrix takes up the present contacts
+  int look_around = 10;           // iterations after which self-contact looks for its pairs anew
   double stop_residual = 0.3;     // of a mean node weight (DrapeEnergy::residual), with friction just frozen
   double settled_residual = 3.0;  // below it and without movement the drape counts as settled
   double settled_move = 0.001;    // m a watched line may move over a round and still count as settled

@@ -156,6 +156,11 @@ class Draper {
     Contact contact(cloth_, *field_, contact_options);
     DrapeEnergy energy(cloth_, &contact, options_.gravity);
     energy.holds = holds_;
+    std::optional<ClothContact> layers;
+    if (options_.self_contact != SelfContact::Off) {
+      layers.emplace(cloth_, mesh_, ClothContactOptions{});
+      energy.cloth_contact = &*layers;
+    }
     if (options_.solver == SolverKind::Pbd) return average_targets(energy, start);
     if (options_.solver == SolverKind::Newton && options_.friction == 0) return refine(energy, start);
     RelaxOptions relax_options;

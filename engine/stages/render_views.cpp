@@ -111,8 +111,8 @@ SheetOptions sheet_for(const std::vector<Surface>& surfaces, bool has_garment, c
 
 }  // namespace
 
-Bytes render_views(const TriangleMesh* body, const PatternMesh* mesh, const Drape* drape, const FittingMap* map,
-                   const ViewOptions& options) {
+Image draw_views(const TriangleMesh* body, const PatternMesh* mesh, const Drape* drape, const FittingMap* map,
+                 const ViewOptions& options) {
   std::vector<Surface> surfaces;
   if (body) surfaces.push_back(body_surface(*body));
   const bool has_garment = mesh && drape;
@@ -133,7 +133,12 @@ Bytes render_views(const TriangleMesh* body, const PatternMesh* mesh, const Drap
       sheet.marks = largest_stretches(surfaces.back(), smoothed_stretch(surfaces.back(), *map, options.reference),
                                       4 * options.marks);
   }
-  return write_png(contact_sheet(surfaces, sheet));
+  return contact_sheet(surfaces, sheet);
+}
+
+Bytes render_views(const TriangleMesh* body, const PatternMesh* mesh, const Drape* drape, const FittingMap* map,
+                   const ViewOptions& options) {
+  return write_png(draw_views(body, mesh, drape, map, options));
 }
 
 Bytes render_placed_panels(const TriangleMesh* body, const Pattern& pattern, const PatternMesh& mesh,

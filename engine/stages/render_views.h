@@ -37,6 +37,10 @@ struct ViewOptions {
 Bytes render_views(const TriangleMesh* body, const PatternMesh* mesh, const Drape* drape, const FittingMap* map,
                    const ViewOptions& options);
 
+// The same as pixels.
+Image draw_views(const TriangleMesh* body, const PatternMesh* mesh, const Drape* drape, const FittingMap* map,
+                 const ViewOptions& options);
+
 // The flat panels where the pattern places them round the body, a colour each.
 Bytes render_placed_panels(const TriangleMesh* body, const Pattern& pattern, const PatternMesh& mesh,
                            const ViewOptions& options);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// drape [GARMENT...] [--triangles N] [--body NAME] [--iterations N] [--pictures FOLDER]: sews and drapes garments of
-// ../shared/data from flat; CPU time beside the quality reached; growth over 4k, 10k and 20k triangles with `growth`.
+// drape [GARMENT...] [--triangles N] [--body NAME | --other-bodies] [--no-self-contact] [--iterations N]
+//       [--sheet FILE.png] [growth]
+// Sews and drapes garments of ../shared/data from flat, all of them by default, at 4,300 and 10,000 triangles or as
+// told: CPU time beside the quality reached, and the distance of waist and hem from design/sewing.md's table.
+// --sheet draws every garment from three sides, at the finest size, into one picture. --other-bodies: on two other
+// bodies of the garment's family and on two of another one. growth: over 4k, 10k and 20k triangles.
 #include <cstdio>
 #include <fstream>
 
 #include "engine/core/error.h"
 #include "engine/core/units.h"
-#include "engine/render/contact_sheet.h"
+#include "engine/render/png.h"
 #include "engine/stages/render_views.h"
 #include "tests/bench/bench.h"
 #include "tests/support/dressed.h"
@@ -15,11 +19,15 @@
 namespace toile::bench {
 namespace {
 
+constexpr int kCellWidth = 780, kCellHeight = 480, kCellsAcross = 4;  // of the sheet, pixels
+
 struct Request {
   std::vector<std::string> garments;
-  std::string body, folder;
-  int triangles = 4300, iterations = 1500;
-  bool growth = false;
+  std::vector<int> sizes = {4300, 10000};
+  std::string body, sheet;
+  std::optional<int> iterations;
+  SelfContact self_contact = SelfContact::Auto;
+  bool other_bodies = false, growth = false;
 };
 
 Request parse(const std::vector<std::string>& words) {
@@ -27,15 +35,19 @@ Request parse(const std::vector<std::string>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const bool more = i + 1 < words.size();
     if (words[i] == "--triangles" && more)
-      request.triangles = std::atoi(words[++i].c_str());
+      request.sizes = {std::atoi(words[++i].c_str())};
     else if (words[i] == "--iterations" && more)
       request.iterations = std::atoi(words[++i].c_str());
+    else if (words[i] == "--no-self-contact")
+      request.self_contact = SelfContact::Off;
     else if (words[i] == "--body" && more)
       request.body = words[++i];
-    else if (words[i] == "--pictures" && more)
-      request.folder = words[++i];
+    else if (words[i] == "--sheet" && more)
+      request.sheet = words[++i];
+    else if (words[i] == "--other-bodies")
+      request.other_bodies = true;
     else if (words[i] == "growth")
-      request.growth = true;
+      request.growth = true, request.sizes = {4000, 10000, 20000};
     else
       request.garments.push_back(words[i]);
   }
@@ -43,15 +55,13 @@ Request parse(const std::vector<std::string>& words) {
   return request;
 }
 
-double waist_height(const Pattern& pattern, const PatternMesh& mesh, const Drape& drape) {
-  double sum = 0;
-  int count = 0;
-  for (std::size_t p = 0; p < pattern.panels.size(); ++p)
-    for (std::size_t e = 0; e < pattern.panels[p].edges.size(); ++e)
-      if (pattern.panels[p].edges[e].label == "lower_interface")
-        for (int v : mesh.edge_vertices[p][e])
-          sum += drape.nodes(mesh.node_of_vertex[static_cast<std::size_t>(v)], 1), ++count;
-  return count > 0 ? sum / count : 0.0;
+// Bodies a garment is put on; the empty name is its own.
+std::vector<std::string> bodies_for(const Request& request, const std::string& garment) {
+  if (!request.other_bodies) return {request.body};
+  const std::string own = test::body_of_garment(garment);
+  if (own == "ggg_mean_female") return {"ggg_mean_all", "ggg_small_female", "mh_female_average", "mh_male_old_heavy"};
+  if (own == "ggg_mean_male") return {"ggg_mean_all", "ggg_large_male", "mh_female_average", "mh_male_old_heavy"};
+  return {"ggg_mean_female", "ggg_mean_male", "mh_female_average", "mh_male_old_heavy"};
 }
 
 std::string names_of(const std::vector<DrapeFinding>& findings) {
@@ -60,38 +70,96 @@ std::string names_of(const std::vector<DrapeFinding>& findings) {
   return names;
 }
 
-void write_picture(const std::string& folder, const std::string& name, const test::Dressing& d, const Drape& drape) {
+Image picture(const std::string& title, const test::Dressing& d, const Drape& drape) {
   ViewOptions options;
   options.views = {View::Front, View::Left, View::Back};
-  options.view_height = options.max_view_width = 360;
-  options.legend = false;
-  options.title = name;
-  const Bytes png = render_views(&d.body.surface, &d.mesh, &drape, nullptr, options);
-  std::ofstream(folder + "/" + name + ".png", std::ios::binary)
-      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  options.view_height = kCellHeight - 60;
+  options.max_view_width = kCellWidth / 3;
+  options.title = title;
+  return draw_views(&d.body.surface, &d.mesh, &drape, nullptr, options);
 }
 
-double run_one(const Request& request, const std::string& name, int triangles, Table& table) {
-  test::Dressing d = test::dress(name, triangles, request.body);
-  d.options.iterations = request.iterations;
-  const double start = cpu_seconds();
-  try {
-    const DrapeResult r = drape(d.pattern, d.mesh, d.body, d.options, nullptr);
-    const double took = cpu_seconds() - start;
-    const DrapeQuality& q = r.quality;
-    table.add({name, std::to_string(d.mesh.triangle_count()), fixed(took, 2), std::to_string(r.diagnostics.iterations),
-               std::string(rest_name(q.rest)), fixed(q.residual, 2), fixed(1e3 * q.settling_move, 2),
-               fixed(100 * q.weft.p99, 1), fixed(100 * q.warp.p99, 1), std::to_string(q.nodes_inside),
-               std::to_string(q.edges_inside), fixed(1e3 * q.deepest_edge, 1),
-               fixed(waist_height(d.pattern, d.mesh, r.drape), 3), fixed(r.drape.nodes.col(1).minCoeff(), 3),
-               fixed(100 * q.crossing_share, 2), std::to_string(r.diagnostics.rung), names_of(r.diagnostics.findings)});
-    if (!request.folder.empty()) write_picture(request.folder, name, d, r.drape);
-    return took;
-  } catch (const Error& error) {
-    table.add({name, std::to_string(d.mesh.triangle_count()), fixed(cpu_seconds() - start, 2), error.message});
+class DrapeBench {
+ public:
+  explicit DrapeBench(const Request& request) : request_(request) {}
+
+  int run(const std::string& csv) {
+    for (const std::string& garment : request_.garments)
+      for (const std::string& body : bodies_for(request_, garment)) {
+        times_.clear();
+        for (int triangles : request_.sizes) run_one(garment, body, triangles);
+        if (request_.growth) table_.add({garment, "", "n^" + fixed(growth_exponent({4000, 10000, 20000}, times_), 2)});
+      }
+    table_.print(csv);
+    std::printf("peak memory %.0f MB\n", peak_memory_mb());
+    if (!request_.sheet.empty()) write_sheet();
     return 0;
   }
-}
+
+ private:
+  void run_one(const std::string& garment, const std::string& body, int triangles) {
+    test::Dressing d = test::dress(garment, triangles, body);
+    if (request_.iterations) d.options.iterations = *request_.iterations;
+    d.options.self_contact = request_.self_contact;
+    const std::string count = std::to_string(d.mesh.triangle_count());
+    const double start = cpu_seconds();
+    try {
+      const DrapeResult r = drape(d.pattern, d.mesh, d.body, d.options, nullptr);
+      times_.push_back(cpu_seconds() - start);
+      add_row(garment, body, d, r);
+      if (!request_.sheet.empty() && triangles == request_.sizes.back())
+        cells_.push_back(picture(garment + " " + body, d, r.drape));
+    } catch (const Error& error) {
+      times_.push_back(cpu_seconds() - start);
+      table_.add({garment, body, count, fixed(times_.back(), 2), error.message});
+    }
+  }
+
+  void add_row(const std::string& garment, const std::string& body, const test::Dressing& d, const DrapeResult& r) {
+    const DrapeQuality& q = r.quality;
+    const test::Place place = test::expected_place(garment);
+    const double waist = test::waist_height(d.pattern, d.mesh, r.drape), hem = r.drape.nodes.col(1).minCoeff();
+    const bool compared = body.empty();
+    table_.add({garment,
+                body,
+                std::to_string(d.mesh.triangle_count()),
+                fixed(times_.back(), 2),
+                std::to_string(r.diagnostics.iterations),
+                std::string(rest_name(q.rest)),
+                fixed(q.residual, 2),
+                fixed(1e3 * q.settling_move, 2),
+                fixed(100 * q.weft.p99, 1),
+                fixed(100 * q.warp.p99, 1),
+                fixed(1e3 * q.deepest_node, 1),
+                fixed(1e3 * q.deepest_edge, 1),
+                std::to_string(q.crossing_pairs),
+                fixed(100 * q.crossing_share, 2),
+                fixed(waist, 3),
+                compared && place.waist > 0 ? fixed(1e3 * (waist - place.waist), 1) : "-",
+                fixed(hem, 3),
+                compared ? fixed(1e3 * (hem - place.lowest), 1) : "-",
+                std::to_string(r.diagnostics.rung),
+                fixed(peak_memory_mb(), 0),
+                names_of(r.diagnostics.findings)});
+  }
+
+  void write_sheet() const {
+    const int count = static_cast<int>(cells_.size()), down = (count + kCellsAcross - 1) / kCellsAcross;
+    Image sheet(kCellsAcross * kCellWidth, std::max(1, down) * kCellHeight, {255, 255, 255});
+    for (int i = 0; i < count; ++i)
+      paste(sheet, cells_[static_cast<std::size_t>(i)], i % kCellsAcross * kCellWidth, i / kCellsAcross * kCellHeight);
+    const Bytes png = write_png(sheet);
+    std::ofstream(request_.sheet, std::ios::binary)
+        .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  }
+
+  const Request& request_;
+  Table table_{{"garment", "body",    "triangles", "CPU s",   "it",      "rest",    "residual",
+                "move mm", "weft %",  "warp %",    "node mm", "edge mm", "cross",   "crossing %",
+                "waist m", "diff mm", "lowest m",  "diff mm", "rung",    "peak MB", "findings"}};
+  std::vector<Image> cells_;
+  std::vector<double> times_;
+};
 
 }  // namespace
 
@@ -101,23 +169,7 @@ int bench_drape(const Arguments& arguments) {
     return 2;
   }
   const Request request = parse(arguments.words);
-  Table table({"garment", "triangles", "CPU s", "it", "rest", "residual", "move mm", "weft p99 %", "warp p99 %",
-               "nodes > 1 mm", "edges > 3 mm", "edge mm", "waist m", "lowest m", "crossing %", "rung", "findings"});
-  for (const std::string& name : request.garments) {
-    if (!request.growth) {
-      run_one(request, name, request.triangles, table);
-      continue;
-    }
-    std::vector<double> sizes, times;
-    for (int triangles : {4000, 10000, 20000}) {
-      times.push_back(run_one(request, name, triangles, table));
-      sizes.push_back(triangles);
-    }
-    table.add({name, "growth", "n^" + fixed(growth_exponent(sizes, times), 2)});
-  }
-  table.print(arguments.csv);
-  std::printf("peak memory %.0f MB\n", peak_memory_mb());
-  return 0;
+  return DrapeBench(request).run(arguments.csv);
 }
 
 }  // namespace toile::bench

@@ -19,4 +19,14 @@ struct Dressing {
 // `body` empty: the one the garment was drafted for. Call only after TOILE_REQUIRE_SHARED_DATA().
 Dressing dress(const std::string& garment, int triangles, const std::string& body = {});
 
+// Mean height of the labelled waist line (0: none) and of the lowest node of a garment of ../shared/data at rest on its
+// own body, m: the table of design/sewing.md, section 2. Each was reached to about 6 mm there, and friction makes the
+// rest state depend on the way to it by up to 15 mm.
+struct Place {
+  double waist, lowest;
+};
+Place expected_place(const std::string& garment);
+// Mean height of the edges labelled lower_interface, m; 0 without one.
+double waist_height(const Pattern& pattern, const PatternMesh& mesh, const Drape& drape);
+
 }  // namespace toile::test
