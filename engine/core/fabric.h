@@ -18,8 +18,8 @@ struct Fabric {
   double density = 0.15;            // kg/m^2, > 0
 };
 
-// The fabrics a garment may name: cotton (the defaults above), denim, jersey, linen, silk, wool. Round figures of the
-// order that tensile, shear and bending tests of such cloths give; empty for any other name.
+// The fabrics a garment may name: cotton (the defaults above), denim, jersey, linen, shirting, silk,
+// stretch_jersey, wool. Figures of tensile, shear and bending tests (fabric.cpp); empty for any other name.
 std::optional<Fabric> fabric_named(std::string_view name);
 std::vector<std::string> fabric_names();
 

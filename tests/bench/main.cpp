@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
       {"derive", {"target patterns: fit and position before and after, over garments and bodies", bench_derive}},
       {"drape",
        {"sew and drape: [GARMENT...] [growth] [--triangles N] [--body NAME] [--pictures FOLDER]", bench_drape}},
+      {"fabrics",
+       {"textile laboratory: [FABRIC...] [--rings N] [--growth] [--pictures FOLDER]", bench_fabrics}},
       {"oracle", {"default against Newton: [GARMENT...] [--triangles N] [--frictionless]", bench_oracle}},
       {"mannequins",
        {"made of tape measurements: [people N] misses of random people; likeness FOLDER pictures beside shared bodies",

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/sim/cloth.h"
+#include "engine/stages/mesh_panels.h"
 #include "tests/support/tubes.h"
 
 namespace toile {
@@ -36,6 +37,22 @@ TEST(Bending, EnergyOfACylinderDoesNotDependOnTheMesh) {
                           .nodes;
     const double exact = 0.5 * pattern.fabric.bending_stiffness * girth * height / (radius * radius);
     EXPECT_NEAR(bending_energy(bending_matrix(pattern, mesh), x) / exact, 1, 0.02) << columns << " x " << rows;
+  }
+}
+
+// A twist z = c x y and a saddle z = c (x^2 - y^2) / 2 have k1 = -k2 = c: c^2 B A, although their curvatures cancel.
+TEST(Bending, SaddlesAndTwistsCostAsMuchAsTheirCurvaturesSay) {
+  const Pattern pattern = test::sheet_pattern(0.4, 0.6, 0.0);
+  const PatternMesh mesh = mesh_panels(pattern, {3000, {}});
+  const SparseMatrix q = bending_matrix(pattern, mesh);
+  const double exact = pattern.fabric.bending_stiffness * 0.4 * 0.6 * 0.25;
+  for (const bool twist : {true, false}) {
+    Points3 x = test::placed_nodes(pattern, mesh);
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+      const double u = x(i, 0), v = x(i, 1);
+      x(i, 2) = 0.5 * (twist ? u * v : 0.5 * (u * u - v * v));
+    }
+    EXPECT_NEAR(bending_energy(q, x) / exact, 1, 0.1) << twist;
   }
 }
 

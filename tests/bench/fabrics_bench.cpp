@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fabrics [FABRIC...] [--rings N] [--growth]: the textile laboratory. Cantilever (ASTM D1388) against the heavy
+// elastica, drape meter (ISO 9073-9) against the band published for such cloth, tensile strips in warp, weft and bias.
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <numbers>
+
+#include "engine/core/units.h"
+#include "engine/stages/render_views.h"
+#include "tests/bench/bench.h"
+#include "tests/support/fabric_lab.h"
+
+namespace toile::bench {
+namespace {
+
+struct Request {
+  std::vector<std::string> fabrics;
+  std::string folder;
+  int rings = 14;
+  bool growth = false;
+};
+
+Request parse(const std::vector<std::string>& words) {
+  Request request;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--rings" && i + 1 < words.size())
+      request.rings = std::atoi(words[++i].c_str());
+    else if (words[i] == "--pictures" && i + 1 < words.size())
+      request.folder = words[++i];
+    else if (words[i] == "--growth")
+      request.growth = true;
+    else
+      request.fabrics.push_back(words[i]);
+  }
+  if (request.fabrics.empty()) request.fabrics = fabric_names();
+  return request;
+}
+
+void write_picture(const Request& request, const std::string& name, const test::Specimen& s) {
+  if (request.folder.empty()) return;
+  ViewOptions options;
+  options.views = {View::Front, View::Left};
+  options.view_height = options.max_view_width = 420;
+  options.legend = false;
+  options.title = name;
+  const Bytes png = render_views(nullptr, &s.mesh, &s.drape, nullptr, options);
+  std::ofstream(request.folder + "/" + name + ".png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+}
+
+std::string percent(double share) {
+  return fixed(100 * share, 1);
+}
+
+// Extension at the load at which cloth is compared: 98 N/m (100 gf/cm, FAST-3).
+constexpr double kLoad = 98.1;
+
+void run_one(const Request& request, const Fabric& fabric, Table& table) {
+  const double start = cpu_seconds();
+  const test::Cantilever strip = test::cantilever(fabric, 12);
+  const test::DrapeMeter meter = test::drape_meter(fabric, request.rings);
+  constexpr double kPi = std::numbers::pi;
+  const test::TensileStrip warp = test::tensile_strip(fabric, 0, kLoad),
+                           weft = test::tensile_strip(fabric, kPi / 2, kLoad),
+                           bias = test::tensile_strip(fabric, kPi / 4, kLoad);
+  write_picture(request, fabric.name + "_cantilever", strip.specimen);
+  write_picture(request, fabric.name + "_drape", meter.specimen);
+  write_picture(request, fabric.name + "_bias", bias.specimen);
+  table.add({fabric.name, fixed(1e3 * strip.bending_length(), 1), percent(strip.overhang / strip.exact_overhang - 1),
+             std::to_string(meter.specimen.mesh.triangle_count()), percent(meter.coefficient),
+             std::to_string(meter.folds), fixed(meter.specimen.residual, 3), percent(warp.extension),
+             percent(weft.extension), percent(bias.extension), fixed(cpu_seconds() - start, 1)});
+}
+
+void run_growth(const Fabric& fabric, Table& table) {
+  for (int rings : {9, 14, 20, 30}) {
+    const double start = cpu_seconds();
+    const test::DrapeMeter meter = test::drape_meter(fabric, rings);
+    table.add({fabric.name, std::to_string(meter.specimen.mesh.triangle_count()), percent(meter.coefficient),
+               std::to_string(meter.folds), fixed(meter.specimen.residual, 3), fixed(cpu_seconds() - start, 1)});
+  }
+}
+
+}  // namespace
+
+int bench_fabrics(const Arguments& arguments) {
+  const Request request = parse(arguments.words);
+  Table table(request.growth
+                  ? std::vector<std::string>{"fabric", "triangles", "drape %", "folds", "residual", "CPU s"}
+                  : std::vector<std::string>{"fabric", "bending length mm", "off elastica %", "triangles", "drape %",
+                                             "folds", "residual", "warp % at 98 N/m", "weft %", "bias %", "CPU s"});
+  for (const std::string& name : request.fabrics) {
+    const std::optional<Fabric> fabric = fabric_named(name);
+    if (!fabric) {
+      std::fprintf(stderr, "no fabric is called %s\n", name.c_str());
+      return 2;
+    }
+    if (request.growth)
+      run_growth(*fabric, table);
+    else
+      run_one(request, *fabric, table);
+  }
+  table.print(arguments.csv);
+  return 0;
+}
+
+}  // namespace toile::bench
