@@ -91,6 +91,34 @@ Loops turned_in(const std::vector<std::vector<Vec2>>& lips, const std::vector<Ve
   return strips;
 }
 
+// An outline that touches itself as outlines that do not: booleans leave pieces that hang together in one point.
+std::vector<std::vector<Vec2>> parted_at_touches(const std::vector<Vec2>& outline) {
+  const ConformedLoops shared = conform_loops({outline}, kSamePoint);
+  std::vector<std::vector<Vec2>> parts;
+  std::vector<int> open;
+  const auto close = [&](std::size_t first) {
+    parts.emplace_back();
+    for (std::size_t i = first; i < open.size(); ++i)
+      parts.back().push_back(shared.points[static_cast<std::size_t>(open[i])]);
+    open.resize(first);
+  };
+  for (const int point : shared.loops[0]) {
+    const auto seen = std::find(open.begin(), open.end(), point);
+    if (seen != open.end()) close(static_cast<std::size_t>(seen - open.begin()));
+    open.push_back(point);
+  }
+  close(0);
+  std::erase_if(parts, [](const auto& part) { return part.size() < 3; });
+  return parts;
+}
+
+std::vector<Vec2> largest_part(const std::vector<Vec2>& outline) {
+  const auto parts = parted_at_touches(outline);
+  const auto largest = std::max_element(parts.begin(), parts.end(),
+                                        [](const auto& a, const auto& b) { return signed_area(a) < signed_area(b); });
+  return largest == parts.end() ? outline : *largest;
+}
+
 // A cut of the removing pass as a slit of no noticeable width, open at the ends that reach the outline.
 std::vector<Vec2> slit_of(const Sheet& sheet, const Cut& cut) {
   std::vector<Vec2> path;
@@ -188,7 +216,7 @@ void PanelParter::grow_insertions(const std::vector<std::vector<Vec2>>& lips, co
       const auto parts = rest.empty() ? polygon_union(inside) : polygon_difference(inside, rest);
       const auto largest =
           std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return area(a) < area(b); });
-      if (largest != parts.end()) grown.outline = largest->outline;
+      if (largest != parts.end()) grown.outline = largest_part(largest->outline);
     }
     others[own++] = grown.outline;
     insertions_.push_back(std::move(grown));
@@ -223,12 +251,13 @@ void PanelParter::part_kept_cloth() {
     return;
   }
   for (PolygonWithHoles& piece : polygon_difference({alteration_.target}, taken)) {
-    if (area(piece) < kLeastPiece)
-      give_away(piece.outline);
-    else if (!piece.holes.empty())
-      result_.problem = "an insertion lies in the middle of the panel";
-    else
-      kept_.push_back({-1, std::move(piece.outline)});
+    if (!piece.holes.empty()) result_.problem = "an insertion lies in the middle of the panel";
+    for (std::vector<Vec2>& part : parted_at_touches(piece.outline)) {
+      if (signed_area(part) < kLeastPiece)
+        give_away(part);
+      else
+        kept_.push_back({-1, std::move(part)});
+    }
   }
 }
 

@@ -11,6 +11,7 @@
 #include "engine/geometry/offset_polygon.h"
 #include "engine/io/schema_check.h"
 #include "engine/outputs.h"
+#include "engine/stages/draw_pattern.h"
 #include "engine/stages/import_pattern.h"
 #include "tests/support/shared_data.h"
 
@@ -156,6 +157,48 @@ TEST(SewnPipeline, TheAlteredPatternIsReadBackWithoutLossAndAlteredAgain) {
   const GarmentInput garment{"altered_pattern.json", Bytes(document.begin(), document.end())};
   const AlterResult twice = alter(garment, "14-100");  // made for a wide form, worn by a narrow one, for that one again
   EXPECT_TRUE(twice.altered.ticket.operations.empty());
+}
+
+TEST(SewnPipeline, EveryDocumentOfAJobAgreesWithItsSchema) {
+  const AlterResult result = alter(tube_skirt(), "11-125");
+  AlterOptions options = small();
+  options.outputs = {"altered_pattern.json", "target_pattern.json", "ticket.json"};
+  std::vector<std::string> schemas;
+  for (const OutputFile& file :
+       alter_outputs(result, options, job_info(tube_skirt(), form("14-100"), form("11-125")))) {
+    const io::SchemaCheck check = io::check_schema(file.bytes);
+    schemas.push_back(check.schema);
+    for (const io::SchemaProblem& problem : check.problems)
+      ADD_FAILURE() << file.name << problem.pointer << " " << problem.message;
+  }
+  EXPECT_EQ(schemas, (std::vector<std::string>{"altered_pattern", "garment", "ticket", "result"}));
+}
+
+TEST(SewnPipeline, TheDrawingShowsThePiecesOfTheDocument) {
+  constexpr double kSame = 0.01;  // mm
+  const AlterResult result = alter(tube_skirt(), "18-125");
+  const std::string document = altered_document(result);
+  const Drawing read_back = draw_pattern(import_pattern(bytes_of(document)));
+  const Drawing drawing = draw_alteration(result.reference.pattern, result.altered);
+  const auto same_points = [&](const DrawingLine& a, const DrawingLine& b) {
+    ASSERT_EQ(a.points.size(), b.points.size());
+    for (std::size_t i = 0; i < a.points.size(); ++i) EXPECT_LT((a.points[i] - b.points[i]).norm(), kSame);
+  };
+  int compared = 0;
+  for (const DrawingPiece& wanted : read_back.pieces)
+    for (const DrawingPiece& piece : drawing.pieces) {
+      if (piece.name != wanted.name) continue;
+      for (const LineKind kind : {LineKind::Cut, LineKind::Stitch}) {
+        const auto of_kind = [kind](const DrawingLine& line) { return line.kind == kind; };
+        same_points(*std::find_if(wanted.lines.begin(), wanted.lines.end(), of_kind),
+                    *std::find_if(piece.lines.begin(), piece.lines.end(), of_kind));
+      }
+      ASSERT_EQ(piece.notches.size(), wanted.notches.size());
+      for (std::size_t n = 0; n < piece.notches.size(); ++n)
+        EXPECT_LT((piece.notches[n].at - wanted.notches[n].at).norm(), kSame);
+      ++compared;
+    }
+  EXPECT_EQ(compared, 6);
 }
 
 // Both numbers of "118 mm per ply (237 mm in all)", or one of them twice.
