@@ -13,7 +13,7 @@ Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput&
   const MeshPanelsOptions mesh_options = mesh_options_of(options);
   const DrapeOptions drape_options = drape_options_of(options);
   const auto pattern = runner.run("import_pattern", 1, input_key(garment), [&] { return read_garment(garment); });
-  const auto wearer = runner.run("import_body", 1, input_key(body), [&] { return read_body(body); });
+  const auto wearer = runner.run("import_body", 2, input_key(body), [&] { return read_body(body); });
   const auto mesh = runner.run("mesh_panels", 2, key_of(pattern.key, mesh_options), [&] {
     if (auto given = read_garment_mesh(garment)) return std::move(*given);
     return mesh_panels(pattern.value, mesh_options, runner.progress());
@@ -44,7 +44,7 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
 
   auto reference = drape_garment(garment, reference_body, options, runner);
   const auto& [pattern, mesh, wearer, worn, fit] = reference.value;
-  const auto target = runner.run("import_body", 1, input_key(target_body), [&] { return read_body(target_body); });
+  const auto target = runner.run("import_body", 2, input_key(target_body), [&] { return read_body(target_body); });
   const auto registered = runner.run("register_bodies", 2, key_of(input_key(reference_body), target.key),
                                      [&] { return register_bodies(wearer, target.value, {}, runner.progress()); });
   const auto transported = runner.run("transport_garment", 2, key_of(reference.key, registered.key), [&] {
@@ -55,7 +55,7 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   });
   const auto plane = mirror_plane_of(options, pattern);
   const auto derived =
-      runner.run("derive_pattern", 4, key_of(transported.key, derive_options, loop_options, plane), [&] {
+      runner.run("derive_pattern", 5, key_of(transported.key, derive_options, loop_options, plane), [&] {
         const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
         return derive_in_loop(pattern, mesh, fit, target.value, transported.value.drape, mirrors, derive_options,
                               drape_options, loop_options, runner.progress());

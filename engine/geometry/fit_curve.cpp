@@ -17,7 +17,7 @@ constexpr double kGuessWeight = 1e-6;  // of the guess against one point, in the
 constexpr std::array<double, 2> kSlideWeights = {0.01, 1.0};
 constexpr double kDetour = 1.1;  // times the chord between two points: what a curve may walk between them
 constexpr int kDetourChords = 4;
-constexpr double kLeastReach = 0.05;  // of the chord: control points on a given direction are no nearer to their end
+constexpr double kLeastReach = 0.2;  // of the chord: control points on a given direction are no nearer to their end
 constexpr int kProjectionSteps = 8;
 constexpr int kArcSteps = 60;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/geometry/fit_curve.h"
 #include "engine/stages/match_seam_lengths.h"
@@ -222,6 +223,14 @@ class EdgeFitter {
     return ratios;
   }
 
+  // From several starts: the nearest place found from one alone may be a local one.
+  static double nearest(const Curve& curve, const Vec2& point) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const double t : {0.05, 0.25, 0.5, 0.75, 0.95})
+      least = std::min(least, distance_to_curve(curve, point, t).first);
+    return least;
+  }
+
   void measure() {
     for (int p = 0; p < static_cast<int>(original_.panels.size()); ++p) {
       const Panel& panel = result_.pattern.panels[static_cast<std::size_t>(p)];
@@ -229,10 +238,7 @@ class EdgeFitter {
       for (int e = 0; e < panel.edge_count(); ++e) {
         const auto points = inner_points(p, e);
         double farthest = 0.0;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-          const double t = static_cast<double>(i + 1) / static_cast<double>(points.size() + 1);
-          farthest = std::max(farthest, distance_to_curve(edge_curve(panel, e), points[i], t).first);
-        }
+        for (const Vec2& point : points) farthest = std::max(farthest, nearest(edge_curve(panel, e), point));
         result_.deviation.back().push_back(farthest);
         result_.largest_deviation = std::max(result_.largest_deviation, farthest);
       }
