@@ -120,7 +120,7 @@ def leggings():
 def trousers():
     p = MAN
     garment = Garment("Trousers with zip and patch pockets", "cotton", 15)
-    block = LegBlock(levels=(p["waist_level"], p["hip_level"], p["crotch_level"] - 1.0),
+    block = LegBlock(levels=(p["waist_level"], p["hip_level"], p["crotch_level"] - 3.0),
                      leg=[(6.0, 20.5), (28.0, 21.5), (p["knee_level"] + 4.0, 23.0)],
                      hip=(p["hip"] / 4 + 1.0, p["hip"] / 4 + 2.0), reach=(p["hip"] / 16 - 1.0, p["hip"] / 8 - 2.0),
                      side_intake=2.2, wider=1.0)
