@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 
 #include <sys/resource.h>
@@ -27,9 +28,17 @@ double wall_seconds() {
 }
 
 double peak_memory_mb() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return std::atof(line.c_str() + 6) / 1024.0;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+bool forget_peak_memory() {
+  std::ofstream reset("/proc/self/clear_refs");
+  return static_cast<bool>(reset << "5" << std::flush);
 }
 
 Timing time_cpu(int repeats, const std::function<void()>& work) {

@@ -11,6 +11,8 @@ namespace toile::bench {
 double cpu_seconds();   // of this process, all threads
 double wall_seconds();  // monotonic
 double peak_memory_mb();
+// From here on peak_memory_mb() counts anew. False where the system does not let it.
+bool forget_peak_memory();
 
 struct Timing {
   double median = 0, least = 0, most = 0;  // CPU seconds
@@ -36,6 +38,7 @@ std::string fixed(double value, int digits);
 struct Arguments {
   std::vector<std::string> words;  // after the benchmark's name
   std::string csv;                 // --csv FILE
+  std::string svg;                 // --svg FILE, where a benchmark draws a plot
   int repeats = 5;                 // --repeats N
 };
 
@@ -54,5 +57,6 @@ int bench_fabrics(const Arguments& arguments);
 int bench_oracle(const Arguments& arguments);
 int bench_register(const Arguments& arguments);
 int bench_queue(const Arguments& arguments);
+int bench_stages(const Arguments& arguments);
 
 }  // namespace toile::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// toile-bench NAME [words] [--csv FILE] [--repeats N]: prints tables of run time against error.
+// toile-bench NAME [words] [--csv FILE] [--svg FILE] [--repeats N]: prints tables of run time against error.
 #include <cstdio>
 #include <cstring>
 #include <map>
@@ -25,8 +25,7 @@ int main(int argc, char** argv) {
       {"derive", {"target patterns: fit and position before and after, over garments and bodies", bench_derive}},
       {"drape",
        {"sew and drape: [GARMENT...] [growth] [--triangles N] [--body NAME] [--pictures FOLDER]", bench_drape}},
-      {"fabrics",
-       {"textile laboratory: [FABRIC...] [--rings N] [--growth] [--pictures FOLDER]", bench_fabrics}},
+      {"fabrics", {"textile laboratory: [FABRIC...] [--rings N] [--growth] [--pictures FOLDER]", bench_fabrics}},
       {"oracle", {"default against Newton: [GARMENT...] [--triangles N] [--frictionless]", bench_oracle}},
       {"mannequins",
        {"made of tape measurements: [people N] misses of random people; likeness FOLDER pictures beside shared bodies",
@@ -35,6 +34,7 @@ int main(int argc, char** argv) {
       {"pictures", {"all a job shows of a drape: GARMENT.json BODY.obj FOLDER", bench_pictures}},
       {"queue", {"what the queue costs a job, in flushes of the disk: [FOLDER]", bench_queue}},
       {"register", {"body maps: time against error over pairs and resolutions, growth", bench_register}},
+      {"stages", {"a whole job stage by stage: [SCENE...] [--triangles N] [--outputs none|images|all]", bench_stages}},
       {"view", {"look at a body and a drape: BODY.obj [DRAPE.obj] OUT.png [--stretch 0.1]", bench_view}},
   };
   Arguments arguments;
@@ -42,6 +42,8 @@ int main(int argc, char** argv) {
     const std::string word = argv[i];
     if (word == "--csv" && i + 1 < argc)
       arguments.csv = argv[++i];
+    else if (word == "--svg" && i + 1 < argc)
+      arguments.svg = argv[++i];
     else if (word == "--repeats" && i + 1 < argc)
       arguments.repeats = std::max(1, std::atoi(argv[++i]));
     else
@@ -49,7 +51,7 @@ int main(int argc, char** argv) {
   }
   const auto found = argc > 1 ? benches.find(argv[1]) : benches.end();
   if (found == benches.end()) {
-    std::fprintf(stderr, "usage: toile-bench NAME [words] [--csv FILE] [--repeats N]\n");
+    std::fprintf(stderr, "usage: toile-bench NAME [words] [--csv FILE] [--svg FILE] [--repeats N]\n");
     for (const auto& [name, entry] : benches) std::fprintf(stderr, "  %-12s %s\n", name.c_str(), entry.summary);
     return 2;
   }
