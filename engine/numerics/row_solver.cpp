@@ -3,9 +3,10 @@
 
 #include <cassert>
 #include <cmath>
-#include <cstring>
 
 #include <cholmod.h>
+
+#include "engine/numerics/cholmod_factor.h"
 
 namespace toile {
 namespace {
@@ -17,52 +18,18 @@ struct Entry {
   float value;
 };
 
-cholmod_sparse view_of(const SparseMatrix& matrix) {
-  cholmod_sparse view{};
-  view.nrow = view.ncol = static_cast<std::size_t>(matrix.rows());
-  view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
-  view.p = const_cast<int*>(matrix.outerIndexPtr());
-  view.i = const_cast<int*>(matrix.innerIndexPtr());
-  view.x = const_cast<double*>(matrix.valuePtr());
-  view.stype = -1;  // symmetric, lower triangle
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = view.packed = 1;
-  return view;
-}
-
 }  // namespace
 
 struct RowSolver::State {
-  cholmod_common common{};
-  cholmod_factor* factor = nullptr;
-  Eigen::VectorXi outer, inner;  // the analysed pattern
+  CholmodFactor cholesky{FactorShape::Simplicial};
   std::vector<std::int32_t> permutation, begin;
   std::vector<Entry> below;  // columns of L below the diagonal, L D L^T
   std::vector<double> inverse_diagonal;
   std::vector<Row> work;
 
-  State() {
-    cholmod_start(&common);
-    common.print = 0;
-    common.nmethods = 1;
-    common.method[0].ordering = CHOLMOD_AMD;
-    common.supernodal = CHOLMOD_SIMPLICIAL;
-  }
-  ~State() {
-    cholmod_free_factor(&factor, &common);
-    cholmod_finish(&common);
-  }
-
-  bool same_pattern(const SparseMatrix& m) const {
-    return factor && outer.size() == m.outerSize() + 1 && inner.size() == m.nonZeros() &&
-           std::memcmp(outer.data(), m.outerIndexPtr(), sizeof(int) * static_cast<std::size_t>(outer.size())) == 0 &&
-           std::memcmp(inner.data(), m.innerIndexPtr(), sizeof(int) * static_cast<std::size_t>(inner.size())) == 0;
-  }
-
   // Copies the factor into rows that the solve reads from front to back.
   bool copy_factor() {
+    const cholmod_factor* factor = cholesky.factor();
     const auto n = static_cast<std::int32_t>(factor->n);
     const auto *p = static_cast<const int*>(factor->p), *i = static_cast<const int*>(factor->i),
                *count = static_cast<const int*>(factor->nz), *order = static_cast<const int*>(factor->Perm);
@@ -88,19 +55,7 @@ RowSolver::RowSolver(RowSolver&&) noexcept = default;
 RowSolver& RowSolver::operator=(RowSolver&&) noexcept = default;
 
 bool RowSolver::factor(const SparseMatrix& matrix) {
-  assert(matrix.rows() == matrix.cols() && matrix.isCompressed());
-  State& s = *state_;
-  if (!Eigen::Map<const Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).allFinite()) return false;
-  cholmod_sparse view = view_of(matrix);
-  if (!s.same_pattern(matrix)) {
-    cholmod_free_factor(&s.factor, &s.common);
-    s.factor = cholmod_analyze(&view, &s.common);
-    if (!s.factor) return false;
-    s.outer = Eigen::Map<const Eigen::VectorXi>(matrix.outerIndexPtr(), matrix.outerSize() + 1);
-    s.inner = Eigen::Map<const Eigen::VectorXi>(matrix.innerIndexPtr(), matrix.nonZeros());
-  }
-  cholmod_factorize(&view, s.factor, &s.common);
-  return s.common.status == CHOLMOD_OK && s.factor->minor == s.factor->n && s.copy_factor();
+  return state_->cholesky.compute(matrix) && state_->copy_factor();
 }
 
 void RowSolver::solve(const Points3& right, Points3& solution) {

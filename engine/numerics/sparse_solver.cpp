@@ -2,52 +2,21 @@
 #include "engine/numerics/sparse_solver.h"
 
 #include <cassert>
-#include <cmath>
-#include <cstring>
 
 #include <cholmod.h>
 
-extern "C" void openblas_set_num_threads(int threads);
+#include "engine/numerics/cholmod_factor.h"
 
 namespace toile {
-namespace {
-
-// One BLAS thread: sums in another order would change bytes with the number of threads.
-void use_one_blas_thread() {
-  static const bool done = (openblas_set_num_threads(1), true);
-  (void)done;
-}
-
-}  // namespace
 
 struct SparseSolver::State {
-  cholmod_common common{};
-  cholmod_factor* symbolic = nullptr;
+  CholmodFactor cholesky{FactorShape::Automatic};
   bool numeric = false;
   int n = 0;
-  Eigen::VectorXi outer, inner;                                           // the analysed pattern
-  mutable cholmod_dense *solution = nullptr, *y = nullptr, *e = nullptr;  // workspace kept between solves
+  cholmod_dense *solution = nullptr, *y = nullptr, *e = nullptr;  // workspace kept between solves
 
-  State() {
-    use_one_blas_thread();
-    cholmod_start(&common);
-    common.print = 0;
-    common.nmethods = 1;  // AMD only: the same ordering every time, and METIS is not always there
-    common.method[0].ordering = CHOLMOD_AMD;
-    common.postorder = 1;
-  }
   ~State() {
-    cholmod_free_dense(&solution, &common);
-    cholmod_free_dense(&y, &common);
-    cholmod_free_dense(&e, &common);
-    cholmod_free_factor(&symbolic, &common);
-    cholmod_finish(&common);
-  }
-
-  bool same_pattern(const SparseMatrix& m) const {
-    return symbolic && outer.size() == m.outerSize() + 1 && inner.size() == m.nonZeros() &&
-           std::memcmp(outer.data(), m.outerIndexPtr(), sizeof(int) * static_cast<std::size_t>(outer.size())) == 0 &&
-           std::memcmp(inner.data(), m.innerIndexPtr(), sizeof(int) * static_cast<std::size_t>(inner.size())) == 0;
+    for (cholmod_dense** kept : {&solution, &y, &e}) cholmod_free_dense(kept, cholesky.common());
   }
 };
 
@@ -64,33 +33,9 @@ int SparseSolver::size() const {
 }
 
 bool SparseSolver::factor(const SparseMatrix& matrix) {
-  assert(matrix.rows() == matrix.cols() && matrix.isCompressed());
   State& s = *state_;
-  s.numeric = false;
   s.n = static_cast<int>(matrix.rows());
-  if (!Eigen::Map<const Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).allFinite()) return false;
-
-  cholmod_sparse view{};
-  view.nrow = view.ncol = static_cast<std::size_t>(matrix.rows());
-  view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
-  view.p = const_cast<int*>(matrix.outerIndexPtr());
-  view.i = const_cast<int*>(matrix.innerIndexPtr());
-  view.x = const_cast<double*>(matrix.valuePtr());
-  view.stype = -1;  // symmetric, lower triangle
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = view.packed = 1;
-
-  if (!s.same_pattern(matrix)) {
-    cholmod_free_factor(&s.symbolic, &s.common);
-    s.symbolic = cholmod_analyze(&view, &s.common);
-    if (!s.symbolic) return false;
-    s.outer = Eigen::Map<const Eigen::VectorXi>(matrix.outerIndexPtr(), matrix.outerSize() + 1);
-    s.inner = Eigen::Map<const Eigen::VectorXi>(matrix.innerIndexPtr(), matrix.nonZeros());
-  }
-  cholmod_factorize(&view, s.symbolic, &s.common);
-  s.numeric = s.common.status == CHOLMOD_OK && s.symbolic->minor == s.symbolic->n;
+  s.numeric = s.cholesky.compute(matrix);
   return s.numeric;
 }
 
@@ -106,7 +51,7 @@ void SparseSolver::solve_into(const Eigen::Ref<const Eigen::MatrixXd>& right,
   view.x = const_cast<double*>(right.data());
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
-  cholmod_solve2(CHOLMOD_A, s.symbolic, &view, nullptr, &s.solution, nullptr, &s.y, &s.e, &s.common);
+  cholmod_solve2(CHOLMOD_A, s.cholesky.factor(), &view, nullptr, &s.solution, nullptr, &s.y, &s.e, s.cholesky.common());
   assert(s.solution);
   solution = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(
       static_cast<const double*>(s.solution->x), right.rows(), right.cols(),
