@@ -84,6 +84,7 @@ ImportedGarment take_in_garment(const GarmentInput& garment) {
 std::string input_key(const GarmentInput& garment) {
   ContentHash hash;
   hash.add("garment")
+      .add(garment.name)  // what a garment without a name of its own is called
       .add(garment.bytes)
       .add(garment.metre_per_uv_unit.value_or(0.0))
       .add(garment.sidecar)

@@ -14,7 +14,7 @@ constexpr std::string_view kStyle = R"(
 *{box-sizing:border-box}
 body{margin:0 auto;max-width:62rem;padding:1.2rem 1rem 3rem;color:var(--ink);background:var(--paper);
  font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,Helvetica,Arial,sans-serif}
-h1{font-size:1.6rem;line-height:1.2;margin:0 0 .2rem}
+h1{font-size:1.6rem;line-height:1.2;margin:0 0 .2rem;overflow-wrap:anywhere}
 h2{font-size:1.2rem;margin:2rem 0 .6rem;padding-top:.6rem;border-top:2px solid var(--ink)}
 p{margin:.4rem 0}.soft{color:var(--soft)}.note{background:var(--tint);padding:.6rem .8rem;border-radius:.3rem}
 figure{margin:1rem 0}figcaption{color:var(--soft);font-size:.9rem;margin-top:.3rem}
@@ -36,7 +36,8 @@ ol.work>li.adds{border-left-color:var(--blue)}ol.work>li.takes{border-left-color
  border:1.5px solid var(--ink);border-radius:.15rem;display:inline-block;transform:translateY(.15rem)}
 .tag{font-size:.8rem;padding:.05rem .5rem;border-radius:1rem;background:var(--tint);font-weight:400;white-space:nowrap}
 .tag.warn{background:#fde7c8}.profile{width:100%;max-width:30rem;height:auto}
-@media(max-width:34rem){dl{grid-template-columns:1fr}dd{margin-bottom:.3rem}body{padding:.8rem .7rem 2rem}}
+@media(max-width:34rem){table{font-size:.85rem}th,td{padding:.25rem .35rem}th{white-space:normal}dl{grid-template-columns:1fr}dd{margin-bottom:.3rem}body{padding:.8rem .7rem 2rem}}
+@page{size:A4;margin:14mm}
 @media print{body{max-width:none;padding:0;font-size:10pt}.wide{border:0;overflow:visible}.wide>*{min-width:0}.scroll{overflow:visible}table{font-size:8pt}th,td{padding:.2rem .35rem}
  h2{break-after:avoid}figure,table,ol.work>li{break-inside:avoid}}
 )";

@@ -69,12 +69,9 @@ TriangleMesh read_mesh(std::span<const std::uint8_t> bytes, const std::string& n
                 std::to_string(bytes.size()) + " bytes, more than the " + std::to_string(limits.bytes) +
                     " that are read; decimate the mesh or export it as binary PLY");
   switch (detect_mesh_format(bytes, name)) {
-    case MeshFormat::Obj:
-      return read_obj(bytes, name, limits);
-    case MeshFormat::Ply:
-      return read_ply(bytes, name, limits);
-    case MeshFormat::Stl:
-      return read_stl(bytes, name, limits);
+    case MeshFormat::Obj: return read_obj(bytes, name, limits);
+    case MeshFormat::Ply: return read_ply(bytes, name, limits);
+    case MeshFormat::Stl: return read_stl(bytes, name, limits);
   }
   throw Error(ErrorCode::Internal, name, "no reader for this format");
 }

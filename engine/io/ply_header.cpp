@@ -69,17 +69,13 @@ PlyProperty read_property(TextScanner& scanner) {
 int ply_size_of(PlyType type) {
   switch (type) {
     case PlyType::Int8:
-    case PlyType::UInt8:
-      return 1;
+    case PlyType::UInt8: return 1;
     case PlyType::Int16:
-    case PlyType::UInt16:
-      return 2;
+    case PlyType::UInt16: return 2;
     case PlyType::Int32:
     case PlyType::UInt32:
-    case PlyType::Float32:
-      return 4;
-    case PlyType::Float64:
-      return 8;
+    case PlyType::Float32: return 4;
+    case PlyType::Float64: return 8;
   }
   return 8;
 }

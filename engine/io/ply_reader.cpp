@@ -45,20 +45,13 @@ class BinaryValues {
   }
   std::int64_t integer(PlyType type) {
     switch (type) {
-      case PlyType::Int8:
-        return reader_.read<std::int8_t>();
-      case PlyType::UInt8:
-        return reader_.read<std::uint8_t>();
-      case PlyType::Int16:
-        return reader_.read<std::int16_t>();
-      case PlyType::UInt16:
-        return reader_.read<std::uint16_t>();
-      case PlyType::Int32:
-        return reader_.read<std::int32_t>();
-      case PlyType::UInt32:
-        return reader_.read<std::uint32_t>();
-      default:
-        return -1;  // indices are never fractions: checked before
+      case PlyType::Int8: return reader_.read<std::int8_t>();
+      case PlyType::UInt8: return reader_.read<std::uint8_t>();
+      case PlyType::Int16: return reader_.read<std::int16_t>();
+      case PlyType::UInt16: return reader_.read<std::uint16_t>();
+      case PlyType::Int32: return reader_.read<std::int32_t>();
+      case PlyType::UInt32: return reader_.read<std::uint32_t>();
+      default: return -1;  // indices are never fractions: checked before
     }
   }
   std::size_t remaining() const { return reader_.remaining(); }

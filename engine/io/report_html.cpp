@@ -43,10 +43,9 @@ Bytes write_report_html(const Report& report) {
         "away.</figcaption></figure>\n");
   }
   add_pictures(report.pictures, page);
-  if (!report.quality.fields().empty()) {
-    page.heading("Quality");
-    page.record(report.quality);
-  }
+  if (!report.quality.empty() || !report.findings.empty()) page.heading("Quality");
+  page.list(report.findings);
+  for (const HtmlTable& table : report.quality) page.table(table);
   add_folded("Measurements", report.measurements, page);
   add_folded("Options", report.options, page);
   return page.finish();

@@ -21,7 +21,9 @@ struct Report {
   const Ticket* ticket = nullptr;       // may be null
   Bytes pattern_svg;                    // inlined drawing (svg.h with `inlined`), or empty
   std::vector<ReportPicture> pictures;  // further ones: flat pattern, steps of tears
-  Record quality, measurements, options;
+  std::vector<HtmlTable> quality;       // how far the simulation is to be trusted
+  std::vector<std::string> findings;    // what did not come out as it should
+  Record measurements, options;
 };
 
 // Sections without content are left out.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/io/svg.h"
 
+#include <algorithm>
+
 #include "engine/core/drawing_marks.h"
 #include "engine/core/units.h"
 #include "engine/io/drawing_layout.h"
@@ -10,6 +12,11 @@ namespace toile::io {
 namespace {
 
 constexpr double kHeader = 120.0;  // mm above the pieces for title and test square
+// Embedded drawings are shown about this wide; there words that matter are raised to what can be read and the others,
+// seam numbers mostly, left out.
+constexpr double kPageWidth = 960.0;      // pixels
+constexpr double kReadable = 8.0;         // pixels, of capitals
+constexpr double kWordsThatMatter = 4.0;  // mm on the cloth
 constexpr const char* kStyle =
     ".drawing path{fill:none;stroke-linejoin:round;stroke-linecap:round}"
     ".drawing .cut{stroke:#1c1c20;stroke-width:.6}"
@@ -24,7 +31,8 @@ constexpr const char* kStyle =
     ".drawing .label{font-family:Helvetica,Arial,sans-serif;fill:#1c1c20;text-anchor:middle;stroke:none}"
     ".drawing .open{fill:none}"
     ".drawing.page path{vector-effect:non-scaling-stroke;stroke-width:.7px}"
-    ".drawing .added .cut{stroke:#2f5bd8}";
+    ".drawing .added .cut{stroke:#2f5bd8}"
+    ".drawing.page .added .cut{fill:#4670eb;fill-opacity:.12}";
 
 // Filled kinds have a second class for lines that bound nothing.
 std::string_view open_line_name(LineKind kind) {
@@ -91,12 +99,22 @@ class SvgWriter {
     out_ += closed ? "Z\"/>\n" : "\"/>\n";
   }
 
+  // Height of a text's capitals, mm; 0 leaves it out.
+  double shown_height(const DrawingText& text) const {
+    if (!options_.inlined) return text.height;
+    const double readable = kReadable * layout_.size.x() / kPageWidth;
+    return text.height >= kWordsThatMatter ? std::max(text.height, readable)
+           : text.height < readable        ? 0.0
+                                           : text.height;
+  }
+
   void label(const DrawingText& text) {
+    const double height = shown_height(text);
+    if (height <= 0.0) return;
     const double x = text.at.x() + shift_.x(), y = layout_.size.y() - text.at.y() - shift_.y();
     const std::string at_x = number(x, 2), at_y = number(y, 2);
     // Capitals are 0.72 of the font size tall.
-    append(out_,
-           {"<text class=\"label\" x=\"", at_x, "\" y=\"", at_y, "\" font-size=\"", number(text.height / 0.72, 2)});
+    append(out_, {"<text class=\"label\" x=\"", at_x, "\" y=\"", at_y, "\" font-size=\"", number(height / 0.72, 2)});
     const std::string degrees = number(-text.angle * kDegreePerRadian, 2);
     if (degrees != "0") append(out_, {"\" transform=\"rotate(", degrees, " ", at_x, " ", at_y, ")"});
     append(out_, {"\">", escape_xml(text.text), "</text>\n"});

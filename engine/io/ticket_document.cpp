@@ -124,7 +124,7 @@ std::string facts(const TicketOperation& operation) {
   std::string amount = mm_text(operation.per_ply);
   append(amount, {" per ply, ", mm_text(operation.total), " in all"});
   add_fact(list, "amount", amount);
-  if (operation.fabric != FabricNeed::None) {
+  if (operation.allowance.needed > 0) {
     const bool enough = operation.allowance.left >= 0;
     std::string text = mm_text(operation.allowance.available);
     append(text, {" available, ", mm_text(operation.allowance.needed), " needed, ",
@@ -151,14 +151,15 @@ void add_operation(const TicketOperation& operation, int order, HtmlPage& page) 
 }
 
 HtmlTable pieces_table(const Ticket& ticket) {
-  HtmlTable table{"Pieces to cut", {"piece", "label", "cut", "width", "length", "area", "grain", "seam allowance"}, {}};
+  HtmlTable table{"Pieces to cut", {"piece", "cut", "width", "length", "area", "grain", "seam allowance"}, {}};
   for (const TicketOperation& operation : ticket.operations)
     for (const TicketPiece& piece : operation.pieces) {
       std::string area = number(square_cm(piece.area), 1),
-                  grain = number(tenth(piece.grain_angle * kDegreePerRadian), 1);
-      table.rows.push_back({piece.name, piece.label == piece.name ? std::string() : piece.label,
-                            std::to_string(piece.quantity), mm_text(piece.width), mm_text(piece.length),
-                            area += " cm\xC2\xB2", grain += "\xC2\xB0", mm_text(piece.seam_allowance)});
+                  grain = number(tenth(piece.grain_angle * kDegreePerRadian), 1), name = piece.name;
+      if (piece.label != piece.name) append(name, {" (", piece.label, ")"});
+      table.rows.push_back({std::move(name), std::to_string(piece.quantity), mm_text(piece.width),
+                            mm_text(piece.length), area += " cm\xC2\xB2", grain += "\xC2\xB0",
+                            mm_text(piece.seam_allowance)});
     }
   return table;
 }

@@ -46,7 +46,7 @@ class PicturePainter {
     top_ = kMargin + (options.title.empty() ? 0 : 28);
     const int least = options.stretch_scale ? 220 : 16;
     const int height = top_ + std::max(least, static_cast<int>(std::ceil(scale_ * layout_.size.y()))) + kMargin;
-    canvas_.emplace(width, height, 3, kWhite);
+    canvas_.emplace(width, height, 2, kWhite);
   }
 
   Image paint() {

@@ -90,7 +90,6 @@ int bench_pictures(const Arguments& arguments) {
   report.zones = {
       {"Stretch by panel", {"panel", "weft", "warp"}, {{"front", "+1.2 %", "-0.3 %"}, {"back", "+0.8 %", "0.1 %"}}}};
   report.ticket = &ticket, report.pattern_svg = inlined;
-  report.quality.add("residual", draped.quality.residual).add("iterations", draped.diagnostics.iterations);
   for (const auto& [name, value] : body.measurements) report.measurements.add(name + "_m", value);
   folder.make("report.html", [&] { return io::write_report_html(report); });
   folder.print(arguments.csv);

@@ -105,7 +105,8 @@ TEST(Report, IsOneSelfContainedPage) {
   report.fits = {{Bytes{1, 2, 3}, "before"}, {Bytes{4, 5, 6}, "after"}};
   report.zones = {{"Stretch", {"panel", "before", "after"}, {{"front", "5.1 %", "0.4 %"}}}};
   report.ticket = &ticket;
-  report.quality.add("stretch_error", 0.0123).add("worst", Record().add("panel", "front"));
+  report.quality = {{"Drapes", {"", "before"}, {{"stretch error", "1.23 %"}}}};
+  report.findings = {"panel front: 4 % stretch is left"};
   report.options.add("preset", "standard");
   const std::string html = text_of(write_report_html(report));
   EXPECT_EQ(count(html, "data:image/png;base64,"), 2);
@@ -114,7 +115,9 @@ TEST(Report, IsOneSelfContainedPage) {
   EXPECT_EQ(html.find("<link"), std::string::npos);
   EXPECT_NE(html.find("name=\"viewport\""), std::string::npos);
   EXPECT_NE(html.find("Alteration of &lt;shirt&gt;"), std::string::npos);
-  EXPECT_NE(html.find("<dt>stretch error</dt><dd>0.0123</dd>"), std::string::npos);
+  EXPECT_NE(html.find("<td>1.23 %</td>"), std::string::npos);
+  EXPECT_NE(html.find("<li>panel front: 4 % stretch is left</li>"), std::string::npos);
+  EXPECT_NE(html.find("<dt>preset</dt><dd>standard</dd>"), std::string::npos);
   EXPECT_NE(html.find("<td>5.1 %</td>"), std::string::npos);
   expect_balanced(html);
 }
