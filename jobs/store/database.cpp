@@ -76,6 +76,20 @@ Database::Database(const std::filesystem::path& file)
   migrate(*writer_);
 }
 
+void Database::rewrite() {
+  const std::lock_guard lock(writer_lock_);
+  // In memory it would need the size of the database.
+  writer_->run_script("PRAGMA temp_store=FILE");
+  try {
+    fault_point("rewrite");
+    writer_->run_script("VACUUM");
+  } catch (...) {
+    writer_->run_script("PRAGMA temp_store=MEMORY");
+    throw;
+  }
+  writer_->run_script("PRAGMA temp_store=MEMORY");
+}
+
 bool Database::empty_log() {
   const std::lock_guard lock(writer_lock_);
   Statement rows = writer_->query("PRAGMA wal_checkpoint(TRUNCATE)");

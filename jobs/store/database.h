@@ -59,6 +59,9 @@ class Database {
   // Throws Error{StorageFailed}: damaged, or written by a newer version of Toile.
   explicit Database(const std::filesystem::path& file);
 
+  // Builds the database anew from its rows (VACUUM), 6 ms per MB. secure_delete zeroes a row where it stands, but
+  // SQLite shares rows out among neighbouring pages as they fill and leaves copies in the unused middle of a page.
+  void rewrite();
   // Moves the log into the database and empties it; true when no reader was in the way.
   bool empty_log();
   // Full integrity check; "ok" when sound.

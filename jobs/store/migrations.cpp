@@ -104,6 +104,12 @@ CREATE TRIGGER jobs_leave AFTER UPDATE OF state ON jobs WHEN OLD.state = 'queued
 CREATE TRIGGER jobs_go AFTER DELETE ON jobs WHEN OLD.state = 'queued'
   BEGIN UPDATE waiting SET count = count - 1; END;
 )sql",
+    // Removals after which the database is still to be rewritten, and by when. Older versions never did: once at first.
+    R"sql(
+CREATE TABLE rewriting(
+  only INTEGER PRIMARY KEY CHECK (only = 1), asked INTEGER NOT NULL, done INTEGER NOT NULL, due_ms INTEGER NOT NULL) STRICT;
+INSERT INTO rewriting VALUES (1, 1, 0, 0);
+)sql",
 };
 
 }  // namespace

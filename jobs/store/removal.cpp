@@ -8,7 +8,8 @@ namespace toile {
 
 namespace {
 
-constexpr int kJobsPerTransaction = 100;  // bounds how long the writer's lock is held
+constexpr int kJobsPerTransaction = 100;                       // bounds how long the writer's lock is held
+constexpr std::int64_t kRewriteAfterAgeMs = 24 * 3600 * 1000;  // what goes by age may leave traces for a day
 
 template <class... Values>
 std::vector<std::string> column(Connection& connection, const char* sql, const Values&... values) {
@@ -16,6 +17,13 @@ std::vector<std::string> column(Connection& connection, const char* sql, const V
   Statement rows = connection.query(sql, values...);
   while (rows.step()) list.push_back(rows.text(0));
   return list;
+}
+
+// Part of the removal's own transaction: a process that dies before the rewriting leaves it to the sweeper.
+void ask_for_rewriting(Transaction& transaction, std::int64_t due_ms) {
+  transaction->run(
+      "UPDATE rewriting SET due_ms = CASE WHEN asked = done THEN ?1 ELSE min(due_ms, ?1) END, asked = asked + 1",
+      due_ms);
 }
 
 }  // namespace
@@ -65,6 +73,7 @@ RemovalCounts Removal::remove_input(const std::string& tenant, InputKind kind, c
       throw Error(ErrorCode::NotFound, std::string(kind_name(kind)),
                   "no " + std::string(kind_name(kind)) + " with this id");
     counts = remove_input_rows(transaction, id);
+    ask_for_rewriting(transaction, clock_());
     transaction.commit();
   }
   wipe();
@@ -82,6 +91,7 @@ RemovalCounts Removal::remove_older_than(std::int64_t before_ms) {
     const auto jobs = old_jobs(*transaction);
     if (jobs.empty()) break;
     for (const std::string& job : jobs) remove_job(transaction, job);
+    ask_for_rewriting(transaction, clock_() + kRewriteAfterAgeMs);
     transaction.commit();
     counts.jobs += static_cast<int>(jobs.size());
   }
@@ -100,9 +110,9 @@ RemovalCounts Removal::remove_older_than(std::int64_t before_ms) {
       counts.stages += remove_input_rows(transaction, input).stages;
       ++counts.inputs;
     }
+    if (!inputs.empty()) ask_for_rewriting(transaction, clock_() + kRewriteAfterAgeMs);
     transaction.commit();
   }
-  if (counts.jobs + counts.inputs > 0) wipe();
   return counts;
 }
 
@@ -114,9 +124,28 @@ void Removal::forget_idempotency(std::int64_t before_ms) {
 
 void Removal::wipe() {
   artifacts_.empty_trash();
+  const std::optional<std::int64_t> asked = due_rewriting();
+  if (asked) database_.rewrite();
+  if (!empty_log() || !asked) return;
+  Transaction transaction(database_);
+  transaction->run("UPDATE rewriting SET done = max(done, ?)", *asked);
+  transaction.commit();
+}
+
+// The removals asked for so far, if rewriting for one of them is due.
+std::optional<std::int64_t> Removal::due_rewriting() {
+  Reader reader(database_);
+  Statement row = reader->query("SELECT asked FROM rewriting WHERE asked > done AND due_ms <= ?", clock_());
+  return row.step() ? std::optional(row.integer(0)) : std::nullopt;
+}
+
+bool Removal::empty_log() {
   // Readers end within milliseconds; the log still holds pages as they were before the deletion.
-  for (int attempt = 0; attempt < 50 && !database_.empty_log(); ++attempt)
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    if (database_.empty_log()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return false;
 }
 
 }  // namespace toile

@@ -33,10 +33,9 @@ void sweep(Store& store, const SweepOptions& options) {
   const std::int64_t stage_age = options.retention_days > 0 ? now - options.retention_days * kDayMs : 0;
   store.stages.evict(stage_age, options.stage_bytes);
   store.removal.forget_idempotency(now - options.idempotency_ms);
-  store.artifacts.empty_trash();
+  store.removal.wipe();
   store.artifacts.remove_orphans(system_clock_ms() - options.orphan_age_ms);  // by the time of the files
   remove_unused_scratch(store);
-  store.database.empty_log();
 }
 
 Sweeper::Sweeper(Store& store, SweepOptions options, EventLog log) {

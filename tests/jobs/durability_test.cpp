@@ -163,8 +163,9 @@ TEST_F(Durability, ADatabaseOfTheFirstStepIsBroughtUpToDateWithItsJobs) {
   enqueue();
   {
     Transaction transaction(store->database);
-    for (const char* sql : {"DROP TRIGGER jobs_come", "DROP TRIGGER jobs_return", "DROP TRIGGER jobs_leave",
-                            "DROP TRIGGER jobs_go", "DROP TABLE waiting", "PRAGMA user_version = 1"})
+    for (const char* sql :
+         {"DROP TRIGGER jobs_come", "DROP TRIGGER jobs_return", "DROP TRIGGER jobs_leave", "DROP TRIGGER jobs_go",
+          "DROP TABLE waiting", "DROP TABLE rewriting", "PRAGMA user_version = 1"})
       transaction->run(sql);
     transaction.commit();
   }
