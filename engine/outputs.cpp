@@ -21,6 +21,7 @@
 #include "engine/render/drawing_picture.h"
 #include "engine/render/png.h"
 #include "engine/result_records.h"
+#include "engine/stages/build_fitting_map.h"
 #include "engine/stages/draw_pattern.h"
 #include "engine/stages/render_views.h"
 
@@ -124,6 +125,7 @@ class AlterationFiles {
   Record result() const;
   Bytes picture(const Body& body, const PatternMesh& mesh, const DrapeResult& drape, const FittingMap& fit,
                 const FittingMap* reference, const char* title) const;
+  Bytes transport_picture() const;
 
   const AlterResult& r_;
   const AlterOptions& options_;
@@ -157,6 +159,23 @@ Bytes AlterationFiles::picture(const Body& body, const PatternMesh& mesh, const 
   views.frame = frame_;
   views.reference = reference;
   return render_views(&body.surface, &mesh, &drape.drape, &fit, views);
+}
+
+// The garment as the body map carried it, and as it comes to rest from there. [Eggler2024, Fig. 6]
+Bytes AlterationFiles::transport_picture() const {
+  ViewOptions views;
+  views.frame = frame_;
+  views.views = {View::Front, View::Back};
+  const auto draw = [&](const Drape& drape, const char* title) {
+    views.title = title;
+    const FittingMap fit = build_fitting_map(r_.reference.mesh, drape);
+    return draw_views(&r_.target_body.surface, &r_.reference.mesh, &drape, &fit, views);
+  };
+  const Image carried = draw(r_.transported.drape, "carried by the body map"), worn = draw(r_.before.drape, "draped");
+  Image both(carried.width + worn.width, std::max(carried.height, worn.height), Rgb{255, 255, 255});
+  paste(both, carried, 0, 0);
+  paste(both, worn, carried.width, 0);
+  return write_png(both);
 }
 
 void AlterationFiles::make_patterns() {
@@ -197,6 +216,7 @@ void AlterationFiles::make_meshes() {
 void AlterationFiles::make_pictures() {
   files_.make("fit_reference.png", kPng, [this] { return fit_reference_.value(); });
   files_.make("fit_before.png", kPng, [this] { return fit_before_.value(); });
+  files_.make_if_named("transport.png", kPng, [this] { return transport_picture(); });
   if (fits_.after) {
     files_.make("fit_after.png", kPng, [this] { return fit_after_.value(); });
     files_.make_if_named("fit_target.png", kPng, [this] { return fit_target_.value(); });

@@ -44,25 +44,31 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
 
   auto reference = drape_garment(garment, reference_body, options, runner);
   const auto& [pattern, mesh, wearer, worn, fit] = reference.value;
-  const auto target = runner.run("import_body", 2, input_key(target_body), [&] { return read_body(target_body); });
-  const auto registered = runner.run("register_bodies", 2, key_of(input_key(reference_body), target.key),
-                                     [&] { return register_bodies(wearer, target.value, {}, runner.progress()); });
-  const auto transported = runner.run("transport_garment", 2, key_of(reference.key, registered.key), [&] {
-    return transport_garment(mesh, worn.drape, wearer, target.value, registered.value.map, {}, runner.progress());
+  const auto imported =
+      runner.run("import_target_body", 1, input_key(target_body), [&] { return read_target_body(target_body); });
+  Body target = imported.value.body;
+  const auto found = runner.run("register_bodies", 4, key_of(input_key(reference_body), imported.key), [&] {
+    const Landmarks given = given_landmarks(target_body, target.normalised_from_file);
+    return register_bodies(wearer, imported.value.seen(), {.target_landmarks = given}, runner.progress());
+  });
+  RegisterBodiesResult registered = found.value;
+  if (imported.value.patch_triangles > 0) stand_on_soles(target, registered);
+  const auto transported = runner.run("transport_garment", 3, key_of(reference.key, found.key), [&] {
+    return transport_garment(mesh, worn.drape, wearer, target, registered.map, {}, runner.progress());
   });
   const auto before = runner.run("drape_before", 3, key_of(transported.key, drape_options), [&] {
-    return drape_from(pattern, mesh, target.value, transported.value.drape, drape_options, runner.progress());
+    return drape_from(pattern, mesh, target, transported.value.drape, drape_options, runner.progress());
   });
   const auto plane = mirror_plane_of(options, pattern);
   const auto derived =
       runner.run("derive_pattern", 5, key_of(transported.key, derive_options, loop_options, plane), [&] {
         const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
-        return derive_in_loop(pattern, mesh, fit, target.value, transported.value.drape, mirrors, derive_options,
+        return derive_in_loop(pattern, mesh, fit, target, transported.value.drape, mirrors, derive_options,
                               drape_options, loop_options, runner.progress());
       });
 
   FittingMap fit_before = build_fitting_map(mesh, before.value.drape);
-  return {{std::move(reference.value), target.value, registered.value, transported.value, before.value,
+  return {{std::move(reference.value), target, registered, transported.value, before.value,
            std::move(fit_before), derived.value},
           derived.key};
 }

@@ -126,6 +126,11 @@ Body read_body(const BodyInput& body) {
   return take_in_body(body).body;
 }
 
+TargetBody read_target_body(const BodyInput& body) {
+  ImportBodyResult result = take_in_body(body);
+  return {std::move(result.body), result.repairs.added_triangles()};
+}
+
 Landmarks given_landmarks(const BodyInput& input, const Mat4& normalised_from_file) {
   if (input.landmarks.empty()) return {};
   return normalised_landmarks(read_landmarks(input.landmarks, input.name + " landmarks"), normalised_from_file);

@@ -2,7 +2,7 @@
 // What a user hands in: bytes and how to read them.
 #pragma once
 
-#include "engine/core/body.h"
+#include "engine/core/archive_values.h"
 #include "engine/core/drape.h"
 #include "engine/core/pattern.h"
 #include "engine/core/pattern_mesh.h"
@@ -36,6 +36,18 @@ Pattern read_garment(const GarmentInput& garment);
 std::optional<PatternMesh> read_garment_mesh(const GarmentInput& garment);
 std::optional<Drape> read_garment_drape(const GarmentInput& garment, const Body& wearer);
 Body read_body(const BodyInput& body);
+// A body to register to: with how many of its triangles close holes of a scan.
+struct TargetBody {
+  Body body;
+  int patch_triangles = 0;
+
+  Body seen() const { return without_patches(body, patch_triangles); }
+};
+template <class A>
+void archive(A& a, TargetBody& v) {
+  a(v.body, v.patch_triangles);
+}
+TargetBody read_target_body(const BodyInput& body);
 // The same with what was mended; a person has a skeleton, landmarks and measurements, a form has none.
 ImportBodyResult take_in_body(const BodyInput& body, Progress* progress = nullptr);
 

@@ -10,6 +10,8 @@
 namespace toile {
 namespace {
 
+constexpr double kFull = 0.7;  // share of the full skinning: within one family less is better, across sexes more
+
 // v -> linear (v - from) + to
 struct BoneMove {
   Mat3 linear = Mat3::Identity();
@@ -99,13 +101,13 @@ Moves soft_moves(const BodyProportions& reference, const BodyProportions& target
   return moves;
 }
 
-// The mean of both skinnings: moves are affine, so are their means.
+// Between both skinnings: moves are affine, so are their means.
 Moves mean_moves(const Moves& a, const Moves& b) {
   Moves mean;
   for (std::size_t i = 0; i < mean.size(); ++i) {
-    mean[i].linear = 0.5 * (a[i].linear + b[i].linear);
+    mean[i].linear = kFull * a[i].linear + (1.0 - kFull) * b[i].linear;
     mean[i].from = a[i].from;
-    mean[i].to = 0.5 * (a[i].to + b[i](a[i].from));
+    mean[i].to = kFull * a[i].to + (1.0 - kFull) * b[i](a[i].from);
   }
   return mean;
 }

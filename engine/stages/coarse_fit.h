@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Take a reference body into the pose and proportions of a target body, in closed form.
 //
-// x = sum_b W_b (A_b (v - a_b) + a'_b), the mean of two such skinnings:
+// x = sum_b W_b (A_b (v - a_b) + a'_b), between two such skinnings:
 //   full  every bone from its segment to the target's, with its own girths: good across sex and shape
 //   soft  trunk and head by one similarity, limbs by few segments: good within one family
 // Source: shared design page "registration", section 1.4. Metres.

@@ -84,6 +84,14 @@ ImportBodyResult import_body(TriangleMesh in_file, const std::string& name, cons
   return result;
 }
 
+Body without_patches(const Body& body, int patch_triangles) {
+  Body seen = body;
+  if (patch_triangles <= 0 || patch_triangles >= body.surface.triangle_count()) return seen;
+  seen.surface.triangles = body.surface.triangles.topRows(body.surface.triangle_count() - patch_triangles);
+  seen.surface.vertices = body.surface.vertices.topRows(seen.surface.triangles.maxCoeff() + 1);  // patches' come last
+  return seen;
+}
+
 Record describe_repairs(const BodyRepairs& repairs) {
   const CleanMeshReport& cleaning = repairs.cleaning;
   std::vector<Record> holes;

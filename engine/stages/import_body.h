@@ -50,6 +50,10 @@ ImportBodyResult import_body(std::span<const std::uint8_t> bytes, const std::str
 ImportBodyResult import_body(TriangleMesh in_file, const std::string& name, const ImportBodyOptions& options = {},
                              Progress* progress = nullptr);
 
+// The skin as it was scanned, without what closes its holes: BodyRepairs::added_triangles of them, which come last.
+// A registered body bridges holes better than a patch does.
+Body without_patches(const Body& body, int patch_triangles);
+
 // For documents: every repair by name with its count, and each hole.
 Record describe_repairs(const BodyRepairs& repairs);
 // Unit, axis, turn and warnings of the normalisation.

@@ -12,6 +12,8 @@ namespace {
 constexpr int kTaubinSteps = 4;
 constexpr double kRough = 0.06;       // a scan; smoothing a clean model would only round it off
 constexpr double kTangential = 0.15;  // share of the pull along the surface
+// A vertex and the middle of a triangle, so weighted, measure a quadratic gap between curved skins without bias.
+constexpr double kFaceShare = 0.75;
 constexpr double kLeastCotangent = 1e-3, kMostCotangent = 10.0;
 constexpr double kPinAreas = 30.0;  // weight of a pin: this many times ell^2, so that it wins
 constexpr double kSettled = 5e-5;   // of the height: a level ends when the mean move is under it
@@ -58,7 +60,7 @@ class Plate {
     pin_weight_ = kPinAreas * ell * ell;
     SparseMatrix system = std::pow(ell, 4) * bending_;
     Eigen::VectorXd mass = areas_;
-    for (const Pin& pin : pins_) mass[pin.vertex] += pin_weight_;
+    for (const Pin& pin : pins_) mass[pin.vertex] += pin.share * pin_weight_;
     for (Eigen::Index i = 0; i < mass.size(); ++i) system.coeffRef(i, i) += mass[i];
     if (!solver_.factor(system))
       throw Error(ErrorCode::RegistrationFailed, "target_body",
@@ -76,17 +78,18 @@ class Plate {
     for (Eigen::Index i = 0; i < right.rows(); ++i) {
       const Vec3 r =
           visible_[i] > 0 ? pull(x.row(i), normals.row(i), near_[at(i)], level, target, height) : Vec3::Zero();
-      right.row(i) = areas_[i] * (displacement_.row(i) + (level.faces ? 0.5 : 1.0) * r.transpose());
+      right.row(i) = areas_[i] * (displacement_.row(i) + (level.faces ? 1.0 - kFaceShare : 1.0) * r.transpose());
     }
     if (level.faces) add_face_pulls(x, level, target, height, right);
-    for (const Pin& pin : pins_) right.row(pin.vertex) += pin_weight_ * (pin.place.transpose() - base_.row(pin.vertex));
+    for (const Pin& pin : pins_)
+      right.row(pin.vertex) += pin.share * pin_weight_ * (pin.place.transpose() - base_.row(pin.vertex));
     const Points3 next = solver_.solve(right);
     const double move = (next - displacement_).rowwise().norm().mean();
     displacement_ = next;
     return move;
   }
 
-  // Half of the pull, taken at the middle of every triangle and shared by its corners.
+  // The share of the pull that is taken at the middles of triangles, and spread to their corners.
   void add_face_pulls(const Points3& x, const Level& level, const FitTarget& target, double height,
                       Eigen::MatrixXd& right) {
     near_face_.resize(at(triangles_.rows()), -1);
@@ -95,7 +98,7 @@ class Plate {
       if (visible_[t[0]] * visible_[t[1]] * visible_[t[2]] == 0) continue;
       const Vec3 a = x.row(t[0]), b = x.row(t[1]), c = x.row(t[2]), cross = (b - a).cross(c - a);
       const Vec3 r = pull((a + b + c) / 3.0, cross.normalized(), near_face_[at(f)], level, target, height);
-      for (int k = 0; k < 3; ++k) right.row(t[k]) += 0.5 * cross.norm() / 6.0 * r.transpose();
+      for (int k = 0; k < 3; ++k) right.row(t[k]) += kFaceShare * cross.norm() / 6.0 * r.transpose();
     }
   }
 
@@ -127,20 +130,19 @@ std::vector<Pin> proxy_pins(const RegistrationReference& reference, const std::v
   for (const Pin& pin : pins) {
     Eigen::Index corner = 0;
     reference.body_on_proxy.weights.row(pin.vertex).maxCoeff(&corner);
-    out.push_back({reference.body_on_proxy.corners(pin.vertex, corner), pin.place});
+    out.push_back({reference.body_on_proxy.corners(pin.vertex, corner), pin.place, pin.share});
   }
   return out;
 }
 
 }  // namespace
 
-FitTarget::FitTarget(const TriangleMesh& target)
-    : surface_{surface_roughness(target) > kRough ? taubin_smooth(target, kTaubinSteps) : target.vertices,
-               target.triangles},
+FitTarget::FitTarget(const TriangleMesh& seen)
+    : surface_{surface_roughness(seen) > kRough ? taubin_smooth(seen, kTaubinSteps) : seen.vertices, seen.triangles},
       tree_(surface_.vertices, surface_.triangles),
       normals_(vertex_normals(surface_.vertices, surface_.triangles)),
-      open_vertex_(at(target.vertex_count()), false),
-      open_edge_(at(target.triangle_count()) * 3, false) {
+      open_vertex_(at(seen.vertex_count()), false),
+      open_edge_(at(seen.triangle_count()) * 3, false) {
   const HalfEdges edges = find_half_edges(surface_.triangles);
   for (std::size_t h = 0; h < edges.opposite.size(); ++h) {
     if (edges.opposite[h] >= 0) continue;

@@ -13,10 +13,11 @@
 
 namespace toile {
 
-// The surface that is fitted to: lightly smoothed, with normals and open edges.
+// The surface that is fitted to: the skin that was seen (patches over holes are not), lightly smoothed, with normals
+// and open edges.
 class FitTarget {
  public:
-  explicit FitTarget(const TriangleMesh& target);
+  explicit FitTarget(const TriangleMesh& seen);
 
   const TriangleMesh& surface() const { return surface_; }
   const SurfaceTree& tree() const { return tree_; }
@@ -34,6 +35,7 @@ class FitTarget {
 struct Pin {
   int vertex = 0;
   Vec3 place = Vec3::Zero();
+  double share = 1.0;  // of the weight of a pin, 0..1
 };
 
 // `coarse`: #V x 3. `height` of the target. Returns #V x 3.

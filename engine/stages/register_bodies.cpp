@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/stages/register_bodies.h"
 
+#include <algorithm>
+
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/geometry/closest_point.h"
 #include "engine/stages/find_skeleton.h"
 #include "engine/stages/judge_map.h"
+#include "engine/stages/raise_body.h"
 #include "engine/stages/refine_map.h"
 
 namespace toile {
 namespace {
 
+constexpr double kSolesErr = 0.002, kSolesMissing = 0.030;     // m: less is the map's error, more is no matter of soles
+constexpr double kLeastShare = 1e-3;                           // of a landmark, to be pinned for it
 constexpr double kBoneRatioLeast = 0.5, kBoneRatioMost = 2.0;  // of a bone's length against the height ratio
 
 bool share_topology(const Body& a, const Body& b) {
@@ -50,22 +55,34 @@ void check_bones(const Skeleton& reference, const Skeleton& target) {
   }
 }
 
+// A landmark lies within a triangle: its corners are pinned at their distance from it, by their share in it.
 std::vector<Pin> find_pins(const RegistrationReference& reference, const Landmarks& given_places) {
+  if (given_places.empty()) return {};
+  const TriangleMesh& surface = reference.surface;
+  const SurfaceTree tree(surface.vertices, surface.triangles);
   std::vector<Pin> pins;
   for (const auto& [name, place] : given_places) {
-    const auto given = reference.landmarks.find(name);
-    if (given == reference.landmarks.end()) continue;
-    Eigen::Index vertex = 0;
-    (reference.surface.vertices.rowwise() - given->second.transpose()).rowwise().squaredNorm().minCoeff(&vertex);
-    pins.push_back({static_cast<int>(vertex), place});
+    const auto landmark = reference.landmarks.find(name);
+    if (landmark == reference.landmarks.end()) continue;
+    const SurfacePoint c = tree.closest_point(landmark->second);
+    for (int k = 0; k < 3; ++k) {
+      const int vertex = surface.triangles(c.triangle, k);
+      const Vec3 off = surface.vertices.row(vertex).transpose() - c.point;
+      if (c.barycentric[k] > kLeastShare) pins.push_back({vertex, place + off, c.barycentric[k]});
+    }
   }
   return pins;
 }
 
-Record describe(const RegistrationReport& r, const std::vector<Pin>& pins) {
+int count_known(const Landmarks& known, const Landmarks& given) {
+  return static_cast<int>(
+      std::count_if(given.begin(), given.end(), [&](const auto& landmark) { return known.contains(landmark.first); }));
+}
+
+Record describe(const RegistrationReport& r, int landmarks_given) {
   Record record;
   record.add("method", "registered")
-      .add("landmarks_given", static_cast<int>(pins.size()))
+      .add("landmarks_given", landmarks_given)
       .add("surface_mean_mm", r.surface_mean * kMmPerMetre)
       .add("surface_p95_mm", r.surface_p95 * kMmPerMetre)
       .add("scan_mean_mm", r.scan_mean * kMmPerMetre)
@@ -96,7 +113,7 @@ RegisterBodiesResult register_bodies(const RegistrationReference& reference, con
   result.report = judge_map(reference, result.map.mapped, fit_target);
   for (const auto* warnings : {&reference.warnings, &found.warnings})
     result.report.warnings.insert(result.report.warnings.end(), warnings->begin(), warnings->end());
-  result.diagnostics = describe(result.report, pins);
+  result.diagnostics = describe(result.report, count_known(reference.landmarks, options.target_landmarks));
   report(progress, "register", 1.0);
   return result;
 }
@@ -113,6 +130,16 @@ RegisterBodiesResult register_bodies(const Body& reference, const Body& target, 
                 "forms are put in correspondence only by a shared topology: give a target form with the vertices and "
                 "triangles of the reference form in the same order");
   return register_bodies(prepare_reference(reference), target, options, progress);
+}
+
+double stand_on_soles(Body& target, RegisterBodiesResult& registered) {
+  const double by = -registered.report.floor;
+  if (registered.map.exact || std::abs(by) < kSolesErr || std::abs(by) > kSolesMissing) return 0.0;
+  raise_body(target, by);
+  registered.map.mapped.col(1).array() += by;
+  registered.report.floor = 0.0;
+  registered.diagnostics.add("raised_mm", by * kMmPerMetre);
+  return by;
 }
 
 }  // namespace toile

@@ -3,9 +3,10 @@
 //
 // Bodies that share one topology (equal triangles, vertex by vertex) correspond exactly; the report says so. Otherwise
 //   skeletons -> coarse fit of pose and proportions -> thin-plate refinement on the target's skin -> guards
-// without landmarks. Landmarks given by the user for the target win: that point of the reference comes to lie there.
-// Hands, head and feet follow, but are only as good as they are alike. Source: [Eggler2024, Sec. 4.1] asks for the map;
-// shared design page "registration" is the method. Metres.
+// without landmarks. A target may have holes, and is better off with them than with patches over them. Landmarks given
+// by the user for the target win: that point of the reference comes to lie there. Hands, head and feet follow, but are
+// only as good as they are alike. Source: [Eggler2024, Sec. 4.1] asks for the map; shared design page "registration" is
+// the method. Metres.
 #pragma once
 
 #include "engine/core/archive_values.h"
@@ -17,7 +18,7 @@ namespace toile {
 
 struct RegisterBodiesOptions {
   bool use_shared_topology = true;  // take equal triangle lists as exact correspondence
-  Landmarks target_landmarks;       // given by the user for the target, normalised frame; names as in the reference's
+  Landmarks target_landmarks = {};  // given by the user for the target, normalised frame; names as in the reference's
 };
 
 // How good a found map is. Metres; 0 where the correspondence is exact.
@@ -54,5 +55,9 @@ RegisterBodiesResult register_bodies(const Body& reference, const Body& target,
 // The same with a prepared reference, for many targets. Shared topology is not looked for.
 RegisterBodiesResult register_bodies(const RegistrationReference& reference, const Body& target,
                                      const RegisterBodiesOptions& options = {}, const Progress* progress = nullptr);
+
+// Sets a scan on the soles of the reference that was registered to it, where its own were cut off by more than a map
+// errs; the map goes with it. Returns how far they were raised, m.
+double stand_on_soles(Body& target, RegisterBodiesResult& registered);
 
 }  // namespace toile

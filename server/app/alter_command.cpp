@@ -102,6 +102,9 @@ void add_alter_command(CLI::App& app, Context& context) {
       ->required();
   command->add_option("--target-body", files->target_body, "body it shall fit")->required();
   add_body_options(*command, files->target_source);
+  command->add_option("--target-landmarks", files->target_source.landmarks, "the same as --landmarks");
+  command->add_option("--reference-landmarks", files->reference_source.landmarks,
+                      "JSON of known landmarks of the reference body, in its file's frame");
   command->callback([files, &context] { alter(*files, context); });
 }
 

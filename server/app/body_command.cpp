@@ -21,24 +21,13 @@ struct BodyArguments {
   std::string out;
 };
 
-// The skin as it was scanned, without what closes its holes: the mannequin bridges them better than a patch does.
-Body scanned_part(const ImportBodyResult& result) {
-  int vertices = 0;
-  for (const ClosedHole& hole : result.repairs.holes) vertices += hole.added_vertices;
-  Body scan = result.body;
-  TriangleMesh& skin = scan.surface;
-  skin.vertices = result.body.surface.vertices.topRows(skin.vertex_count() - vertices);
-  skin.triangles = result.body.surface.triangles.topRows(skin.triangle_count() - result.repairs.added_triangles());
-  return scan;
-}
-
 // Scans are measured through a registered mannequin; a surface that needed no closing is measured as it is.
 Record measure_if_scan(ImportBodyResult& result, const Landmarks& given, Progress* progress) {
   Record how;
   if (result.body.kind != BodyKind::Human || result.repairs.holes.empty()) return how.add("by", "surface");
   MeasureScanResult scan;
   try {
-    scan = measure_scan(scanned_part(result), given, progress);
+    scan = measure_scan(without_patches(result.body, result.repairs.added_triangles()), given, progress);
   } catch (const Error& error) {
     if (error.code != ErrorCode::RegistrationFailed) throw;
     // The surface was measured before: less exact on a scan, and said so.

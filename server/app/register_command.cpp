@@ -51,13 +51,13 @@ void run(const RegisterArguments& arguments, Context& context) {
   reference_source.landmarks = arguments.reference_landmarks;
   const Body reference = read_body(read_body_input(arguments.reference_body, reference_source));
   const BodyInput target_input = read_body_input(arguments.target_body, arguments.target);
-  const Body target = read_body(target_input);
+  const TargetBody imported = read_target_body(target_input);
+  Body target = imported.body;
   RegisterBodiesOptions options;
-  if (!target_input.landmarks.empty())
-    options.target_landmarks = normalised_landmarks(
-        read_landmarks(target_input.landmarks, target_input.name + " landmarks"), target.normalised_from_file);
+  options.target_landmarks = given_landmarks(target_input, target.normalised_from_file);
   options.use_shared_topology = !arguments.find_always;
-  const RegisterBodiesResult result = register_bodies(reference, target, options, &context.progress);
+  RegisterBodiesResult result = register_bodies(reference, imported.seen(), options, &context.progress);
+  if (imported.patch_triangles > 0) stand_on_soles(target, result);
   const Body registered = registered_body(reference, target, result.map);
   const std::filesystem::path folder = arguments.out;
   write_file(folder / "mapped_reference.obj", write_obj(registered.surface));
@@ -76,6 +76,7 @@ void add_register_command(CLI::App& app, Context& context) {
   command->add_option("--out", arguments->out, "folder for mapped_reference.obj and map.json; made if needed")
       ->required();
   add_body_options(*command, arguments->target);
+  command->add_option("--target-landmarks", arguments->target.landmarks, "the same as --landmarks");
   command->add_option("--reference-landmarks", arguments->reference_landmarks,
                       "JSON of known landmarks of the reference");
   command->add_flag("--find-always", arguments->find_always, "find the map even where both bodies share one topology");

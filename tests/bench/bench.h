@@ -58,5 +58,6 @@ int bench_oracle(const Arguments& arguments);
 int bench_register(const Arguments& arguments);
 int bench_queue(const Arguments& arguments);
 int bench_stages(const Arguments& arguments);
+int bench_transport(const Arguments& arguments);
 
 }  // namespace toile::bench

@@ -33,8 +33,12 @@ int main(int argc, char** argv) {
       {"panels", {"draw a flat pattern: GARMENT.json OUT.png|OUT.svg", bench_panels}},
       {"pictures", {"all a job shows of a drape: GARMENT.json BODY.obj FOLDER", bench_pictures}},
       {"queue", {"what the queue costs a job, in flushes of the disk: [FOLDER]", bench_queue}},
-      {"register", {"body maps: time against error over pairs and resolutions, growth", bench_register}},
+      {"register",
+       {"body maps: time against error over resolutions, growth; [pairs [TARGET] | variants [BODY]]", bench_register}},
       {"stages", {"a whole job stage by stage: [SCENE...] [--triangles N] [--outputs none|images|all]", bench_stages}},
+      {"transport",
+       {"garments carried to other bodies and draped: [GARMENT...] [--body NAME] [--triangles N] [--pictures FOLDER]",
+        bench_transport}},
       {"view", {"look at a body and a drape: BODY.obj [DRAPE.obj] OUT.png [--stretch 0.1]", bench_view}},
   };
   Arguments arguments;

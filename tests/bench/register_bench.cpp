@@ -5,6 +5,7 @@
 #include "engine/geometry/decimate.h"
 #include "engine/stages/register_bodies.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/register_tables.h"
 #include "tests/support/registration/registration_score.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/shared_data.h"
@@ -45,6 +46,8 @@ test::RegistrationCase coarser(const test::RegistrationCase& known, int triangle
 
 int bench_register(const Arguments& arguments) {
   if (!test::has_shared_data()) return std::fprintf(stderr, "../shared/data is not beside this checkout\n"), 3;
+  if (!arguments.words.empty() && arguments.words.front() == "pairs") return bench_register_pairs(arguments);
+  if (!arguments.words.empty() && arguments.words.front() == "variants") return bench_register_variants(arguments);
   const std::string woman = "mh_female_average", mean = "ggg_mean_all";
   const double start = cpu_seconds();
   const RegistrationReference small = prepare_reference(test::load_shared_body(woman));

@@ -7,6 +7,7 @@
 
 #include "engine/core/error.h"
 #include "engine/geometry/closest_point.h"
+#include "engine/geometry/components.h"
 #include "engine/stages/body_bones.h"
 #include "engine/stages/find_skeleton.h"
 #include "engine/stages/import_body.h"
@@ -122,6 +123,26 @@ TEST(RegisterBodies, LetsGivenLandmarksWin) {
   EXPECT_LT(error(), 2e-3);
 }
 
+// A scan that lost 6 mm of its soles stands too low by them; the reference knows how far soles are from ankles.
+TEST(RegisterBodies, StandsAScanOnTheRegisteredSoles) {
+  TOILE_REQUIRE_SHARED_DATA();
+  Body target = test::shuffled_case("mh_female_athletic").target;
+  const TriangleMesh whole = target.surface;
+  std::vector<bool> keep(static_cast<std::size_t>(whole.triangle_count()));
+  for (int f = 0; f < whole.triangle_count(); ++f) {
+    const auto t = whole.triangles.row(f);
+    keep[static_cast<std::size_t>(f)] =
+        std::min({whole.vertices(t[0], 1), whole.vertices(t[1], 1), whole.vertices(t[2], 1)}) > 0.006;
+  }
+  target.surface = extract_triangles(whole, keep);
+  const double lost = target.surface.vertices.col(1).minCoeff(), top = whole.vertices.col(1).maxCoeff();
+  target.surface.vertices.col(1).array() -= lost;
+  RegisterBodiesResult result = register_bodies(reference(kWoman), target);
+  EXPECT_NEAR(stand_on_soles(target, result), lost, 2e-3);
+  EXPECT_NEAR(target.surface.vertices.col(1).maxCoeff(), top, 2e-3);
+  EXPECT_NEAR(result.map.mapped.col(1).minCoeff(), 0.0, 2e-3);
+}
+
 TEST(RegisterBodies, RefusesABodyTurnedRound) {
   TOILE_REQUIRE_SHARED_DATA();
   const Body turned =
@@ -142,7 +163,7 @@ TEST(SlowRegisterBodies, FindsTheCorrespondenceOfEveryScan) {
   expect_close(kMean, test::scan_case("scan_b"), {10, 20});
   expect_close(kWoman, test::scan_case("scan_d"), {12, 25});
   // A woman's artist-made topology slides on a man's body by more than shape can tell: 16 mm is not reached.
-  expect_close(kWoman, test::scan_case("scan_c"), {22, 45});
+  expect_close(kWoman, test::scan_case("scan_c"), {20, 45});
 }
 
 TEST(SlowRegisterBodies, FindsTheCorrespondenceWithinAFamily) {
@@ -152,20 +173,36 @@ TEST(SlowRegisterBodies, FindsTheCorrespondenceWithinAFamily) {
   for (const char* name : {"mh_female_thin_tall", "mh_female_heavy_short", "mh_child_8y"})
     expect_close(kWoman, test::shuffled_case(name), {12, 30});
   expect_close(kWoman, test::shuffled_case("mh_male_average"), {16, 45});
+  expect_close(kWoman, test::shuffled_case("mh_male_old_heavy"), {20, 45});  // as scan_c, which is of him
+}
+
+struct Tolerances {
+  double large = 9e-3, thigh = 7e-3, small = 4e-3;  // m, as ISO 20685-1 has them, thighs besides
+};
+
+void expect_girths(const std::string& from, const RegistrationCase& known, const Tolerances& limits = {}) {
+  const RegistrationReference& prepared = reference(from);
+  const TriangleMesh registered{register_bodies(prepared, known.target).map.mapped, prepared.surface.triangles};
+  const Measurements found = measure(registered), truth = measure(known.truth);
+  for (const char* girth : {"waist_girth", "hip_girth", "bust_girth"})
+    EXPECT_NEAR(found.at(girth), truth.at(girth), limits.large) << known.target.name << " " << girth;
+  EXPECT_NEAR(found.at("thigh_girth"), truth.at("thigh_girth"), limits.thigh) << known.target.name;
+  for (const char* small : {"inside_leg_length", "knee_girth", "calf_girth"})
+    EXPECT_NEAR(found.at(small), truth.at(small), limits.small) << known.target.name << " " << small;
 }
 
 TEST(SlowRegisterBodies, KeepsTheGirthsOfTheTarget) {
   TOILE_REQUIRE_SHARED_DATA();
-  for (const char* name : {"mh_female_heavy_tall", "mh_male_old_heavy", "mh_child_8y"}) {
-    const RegistrationCase known = test::shuffled_case(name);
-    const RegistrationReference& prepared = reference(kWoman);
-    const TriangleMesh registered{register_bodies(prepared, known.target).map.mapped, prepared.surface.triangles};
-    const Measurements found = measure(registered), truth = measure(known.truth);
-    for (const char* girth : {"waist_girth", "hip_girth", "bust_girth"})
-      EXPECT_NEAR(found.at(girth), truth.at(girth), 9e-3) << name << " " << girth;
-    EXPECT_NEAR(found.at("thigh_girth"), truth.at("thigh_girth"), 7e-3) << name;
-    EXPECT_NEAR(found.at("inside_leg_length"), truth.at("inside_leg_length"), 4e-3) << name;
-  }
+  for (const char* name : {"mh_female_heavy_tall", "mh_male_old_heavy", "mh_child_8y"})
+    expect_girths(kWoman, test::shuffled_case(name));
+  for (const char* name : {"scan_c", "scan_d"}) expect_girths(kWoman, test::scan_case(name));
+  expect_girths(kMean, test::scan_case("scan_b"));
+}
+
+// The scanner has joined this heavy woman's thighs by a web 2 cm under the crotch, and the crotch itself is cut away.
+TEST(SlowRegisterBodies, KeepsTheGirthsWhereAWebHidesTheCrotch) {
+  TOILE_REQUIRE_SHARED_DATA();
+  expect_girths(kWoman, test::scan_case("scan_a"), {.thigh = 9e-3, .small = 11e-3});
 }
 
 TEST(SlowRegisterBodies, ComesBackFromTheOtherFamily) {

@@ -40,7 +40,8 @@ double quantile(std::vector<double> values, double fraction) {
 RegistrationCase scan_case(const std::string& scan) {
   const ScanSidecar sidecar = load_scan_sidecar(scan);
   RegistrationCase out;
-  out.target = import_body(shared_scan_bytes(scan), scan).body;
+  const ImportBodyResult imported = import_body(shared_scan_bytes(scan), scan);
+  out.target = without_patches(imported.body, imported.repairs.added_triangles());
   const Mat4 frame = out.target.normalised_from_file * sidecar.scan_from_body;
   out.truth = load_shared_body(sidecar.source_body).surface;
   out.truth.vertices = moved(out.truth.vertices, frame);

@@ -11,7 +11,7 @@ namespace toile::test {
 
 // A target whose correspondence with one family of reference bodies is known.
 struct RegistrationCase {
-  Body target;               // as import_body hands it over
+  Body target;               // as import_body hands it over, without patches over holes
   TriangleMesh truth;        // the source body's vertices where they lie on the target (noise free), target frame
   Landmarks landmarks;       // true, target frame
   bool arms_differ = false;  // the scan's arms are posed otherwise than the source's: judge trunk and legs only
