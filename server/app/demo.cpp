@@ -27,13 +27,13 @@ std::string store_demo(Store& store, const std::string& url) {
   for (const char* form : {"tube-14-100", "tube-16-100", "tube-18-100"})
     forms.push_back(add(store, InputKind::Body, form, R"({"format":"builtin"})", form));
   return "job=$(curl -s " + url +
-         "/v1/jobs -H 'Content-Type: application/json' -H 'Prefer: wait=60' \\\n"
+         "/v1/jobs -H 'Content-Type: application/json' \\\n"
          "  -d '{\"garment\":\"" +
          garment + "\",\"reference_body\":\"" + forms.front() + "\",\"target_body\":\"" + forms.back() +
          "\"}' | jq -r .id)\n"
-         "curl -s " +
+         "curl -sN " +
          url +
-         "/v1/jobs/$job | jq .state\n"
+         "/v1/jobs/$job/events | grep ^event: | uniq  # until it has ended\n"
          "curl -s -o fit.png " +
          url + "/v1/jobs/$job/artifacts/fit_before.png\n";
 }

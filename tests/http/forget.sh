@@ -24,7 +24,7 @@ target=$(echo "$scan" | field .id)
 reference=$body
 body=$target # as both bodies: the stage and the artifact hold its bytes
 for n in 1 2 3; do
-  job=$(submit copy "{\"n\":$n}" -H 'Prefer: wait=20')
+  job=$(submit copy "{\"n\":$n}" -H 'Prefer: wait=60')
   expect "a job on the scan" "$(echo "$job" | field .state)" succeeded
 done
 grep -a '^v ' "$work/scan.obj" | shuf -n 1000 --random-source=<(yes) | cut -d' ' -f2- > "$work/known"

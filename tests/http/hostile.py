@@ -80,8 +80,8 @@ expect("a multipart without end", send([head([multipart, "Content-Length: 9"]), 
 smuggled = head(["Content-Length: 40"], "GET", "/healthz") + b"GET /v1/jobs HTTP/1.1\r\nHost: x\r\n\r\n" + b" " * 6
 with connect() as sock:
     sock.sendall(smuggled)
-    sock.settimeout(3)
-    everything = b""
+    everything = sock.recv(65536)
+    sock.settimeout(3)  # for an answer too many
     try:
         while piece := sock.recv(65536):
             everything += piece
@@ -89,31 +89,36 @@ with connect() as sock:
         pass
     expect("answers to a request hidden in a body", everything.count(b"HTTP/1.1 "), [1])
 
-# 64 sockets that never finish: half without, half within their body; honest clients must not notice.
-held = []
-for i in range(64):
-    sock = connect()
-    sock.sendall(b"GET /healthz HTTP/1.1\r\nX" if i % 2 else head([multipart, "Content-Length: 1000000"]) + b"--b\r\n")
-    held.append(sock)
-times = []
-
-
-def honest():
+def honest(times):
     for _ in range(100):
         start = time.monotonic()
         status = send([head(["Connection: close"], "GET", "/v1/jobs/" + job)])
         times.append(time.monotonic() - start if status == 200 else 99.0)
 
 
-threads = [threading.Thread(target=honest) for _ in range(4)]
-for thread in threads:
-    thread.start()
-for thread in threads:
-    thread.join()
-times.sort()
-print("honest clients beside 64 silent sockets: median %.1f ms, p99 %.1f ms" %
-      (times[len(times) // 2] * 1e3, times[len(times) * 99 // 100] * 1e3))
-expect("p99 under a second", times[len(times) * 99 // 100] < 1.0, [True])
+def honest_clients(beside):
+    """The 99th percentile of the answer times of four clients at once, in seconds."""
+    times = []
+    threads = [threading.Thread(target=honest, args=(times,)) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    times.sort()
+    p99 = times[len(times) * 99 // 100]
+    print("honest clients %s: median %.1f ms, p99 %.1f ms" % (beside, times[len(times) // 2] * 1e3, p99 * 1e3))
+    return p99
+
+
+# 64 sockets that never finish: half without, half within their body; honest clients must not notice.
+alone = honest_clients("alone")
+held = []
+for i in range(64):
+    sock = connect()
+    sock.sendall(b"GET /healthz HTTP/1.1\r\nX" if i % 2 else head([multipart, "Content-Length: 1000000"]) + b"--b\r\n")
+    held.append(sock)
+# A machine busy with other work answers late with and without them.
+expect("p99 under a second", honest_clients("beside 64 silent sockets") < max(1.0, 10 * alone), [True])
 for sock in held:
     sock.close()
 memory = peak_memory_mb()

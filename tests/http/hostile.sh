@@ -4,6 +4,6 @@
 . "$(dirname "$0")/lib.sh"
 start_server "$TOILE_TESTING" --workers 1
 test_inputs
-job=$(submit write '{"bytes":2000000}' -H 'Prefer: wait=20' | field .id)
+job=$(submit write '{"bytes":2000000}' -H 'Prefer: wait=60' | field .id)
 /usr/bin/python3 "$here/hostile.py" "$(cat "$work/port")" "$server" "$job" || fail "see above"
 expect "readiness afterwards" "$(status "$url/readyz")" 200

@@ -28,24 +28,28 @@ expect "an unchanged job" "$(status -H "If-None-Match: $jobtag" "$url/v1/jobs/$i
 expect "the request id" "$(curl -sSI -H 'X-Request-Id: shop-1' "$url/healthz" | tr -d '\r' | sed -n 's/^X-Request-Id: //p')" shop-1
 
 # Events end with the job; who comes back with the last id misses nothing.
-slow=$(submit sleep '{"ms":1500}' | field .id)
-curl -sSN --max-time 30 "$url/v1/jobs/$slow/events" > "$work/events"
+slow=$(submit sleep "{\"until\":\"$work/go\"}" | field .id)
+curl -sSN --max-time 280 "$url/v1/jobs/$slow/events" > "$work/events" &
+stream=$!
+wait_for_state "$slow" running
+for _ in $(seq 600); do [ "$(grep -c '^id:' "$work/events")" -ge 2 ] && break; sleep 0.1; done
+touch "$work/go"
+wait "$stream"
 expect "the last event" "$(grep '^event:' "$work/events" | tail -1)" "event: succeeded"
-[ "$(grep -c '^id:' "$work/events")" -ge 3 ] || fail "too few events"
+[ "$(grep -c '^id:' "$work/events")" -ge 3 ] || fail "too few events: $(cat "$work/events")"
 last=$(grep '^id:' "$work/events" | tail -1 | cut -d' ' -f2)
-expect "events after a reconnect" "$(curl -sSN --max-time 30 -H "Last-Event-ID: $((last - 1))" "$url/v1/jobs/$slow/events" | grep -c '^id:')" 1
+expect "events after a reconnect" "$(curl -sSN --max-time 280 -H "Last-Event-ID: $((last - 1))" "$url/v1/jobs/$slow/events" | grep -c '^id:')" 1
 expect "the long poll" "$(get "/v1/jobs/$slow/events?wait=5&last_event_id=$((last - 1))" | field .event)" succeeded
 
-# Cancellation within a second, queued or running.
-run=$(submit sleep '{"ms":60000}' | field .id)
-submit sleep '{"ms":60001}' > /dev/null
-wait=$(submit sleep '{"ms":60002}' | field .id)
-wait_for_state "$run" running 10
+# Cancellation ends what would run for minutes (how fast: tests/stress/service_load).
+run=$(submit sleep '{"ms":600000}' | field .id)
+submit sleep '{"ms":600001}' > /dev/null
+wait=$(submit sleep '{"ms":600002}' | field .id)
+wait_for_state "$run" running
 expect "a cancelled queued job" "$(curl -sS -X DELETE "$url/v1/jobs/$wait" | field .state)" cancelled
-started=$(date +%s%N)
+started=$(date +%s)
 expect "a cancelled running job" "$(curl -sS -X DELETE "$url/v1/jobs/$run" | field .state)" cancelled
-took=$((($(date +%s%N) - started) / 1000000))
-[ "$took" -lt 1500 ] || fail "cancelling took $took ms"
+[ $(($(date +%s) - started)) -lt 60 ] || fail "cancelling took longer than a minute"
 for job in $(get '/v1/jobs?state=running' | field '.items[].id'); do curl -sS -X DELETE "$url/v1/jobs/$job" > /dev/null; done
 
 # Labels make a catalogue; lists are paged.
@@ -60,7 +64,7 @@ expect "the next page" "$(get "$(echo "$page" | field .next)" | field '.items | 
 batch=$(post /v1/batches "{\"garment\":\"$garment\",\"reference_body\":\"$body\",\"label\":\"spring\",\"options\":{\"triangles\":500}}")
 batch_id=$(echo "$batch" | field .id)
 expect "jobs of the batch" "$(echo "$batch" | field .counts.total)" 5
-for _ in $(seq 600); do
+for _ in $(seq 1500); do
   batch=$(get "/v1/batches/$batch_id")
   [ "$(echo "$batch" | field '.counts.queued + .counts.running')" = 0 ] && break
   sleep 0.2

@@ -18,7 +18,7 @@ def request(method, path, body=None, headers=None):
         headers = {"Content-Type": "application/json", **(headers or {})}
     made = urllib.request.Request(url + path, data=body, method=method, headers=headers or {})
     try:
-        with urllib.request.urlopen(made, timeout=60) as answer:
+        with urllib.request.urlopen(made, timeout=120) as answer:
             return answer.status, answer.headers, answer.read()
     except urllib.error.HTTPError as error:
         return error.code, error.headers, error.read()
@@ -100,11 +100,11 @@ boundary = b"--b\r\nContent-Disposition: form-data; name=\"file\"; filename=\"s.
 upload = boundary + json.dumps(skirt).encode() + b"\r\n--b--\r\n"
 other = made(call("createGarment", body=upload, headers={"Content-Type": "multipart/form-data; boundary=b"}, want=201))
 job_text = {"kind": "write", "garment": garment, "reference_body": reference, "target_body": target, "labels": ["one"]}
-job = made(call("createJob", body=job_text, headers={"Prefer": "wait=30", "Idempotency-Key": "k"}, want=200))
+job = made(call("createJob", body=job_text, headers={"Prefer": "wait=60", "Idempotency-Key": "k"}, want=200))
 call("createJob", body={**job_text, "kind": "sleep"}, want=202)
 call("createJob", body={**job_text, "kind": "no"}, want=422)
 call("createJob", body={**job_text, "labels": []}, headers={"Idempotency-Key": "k"}, want=422)
-failed = made(call("createJob", body={**job_text, "kind": "fail"}, headers={"Prefer": "wait=30"}, want=200))
+failed = made(call("createJob", body={**job_text, "kind": "fail"}, headers={"Prefer": "wait=60"}, want=200))
 call("listJobs", query="?state=succeeded&label=one", want=200)
 call("getJob", {"id": job}, want=200)
 call("getJob", {"id": failed}, want=200)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Each bad request gets its status, its code and, where a part of it is to blame, the pointer to that part.
 . "$(dirname "$0")/lib.sh"
-start_server "$TOILE_TESTING" --workers 1 --max-upload-mb 1 --max-queued 3
+start_server "$TOILE_TESTING" --workers 1 --max-upload-mb 1 --max-queued 3 --drain-s 1
 test_inputs
 
 refused() { # refused WHAT STATUS CODE POINTER CURL ARGUMENT...
@@ -45,7 +45,7 @@ refused "a webhook without a secret" 422 option_invalid /webhook "${jobs[@]}" \
 refused "a large document" 413 limit_exceeded "" "${jobs[@]}" --data-binary @"$work/large.json"
 refused "a bad limit" 422 bad_usage limit "$(on '/v1/jobs?limit=many')"
 refused "a bad state" 422 option_invalid state "$(on '/v1/jobs?state=lost')"
-refused "a bad wait" 422 bad_usage wait "$(on "/v1/jobs/$(submit write '{}' -H 'Prefer: wait=20' | field .id)/events?wait=soon")"
+refused "a bad wait" 422 bad_usage wait "$(on "/v1/jobs/$(submit write '{}' -H 'Prefer: wait=60' | field .id)/events?wait=soon")"
 refused "an empty batch" 422 bad_usage "" -X POST "${json[@]}" "$(on /v1/batches)" \
   -d "{\"garment\":\"$garment\",\"reference_body\":\"$body\",\"target_bodies\":[]}"
 refused "a label nobody carries" 422 bad_usage /label -X POST "${json[@]}" "$(on /v1/batches)" \
@@ -64,9 +64,8 @@ refused "an unknown form field" 422 bad_usage colour -F file=@"$work/point.obj" 
 refused "a broken multipart" 400 malformed_multipart "" -X POST -H 'Content-Type: multipart/form-data; boundary=x' -d 'nothing' "$bodies"
 refused "an upload of another type" 415 format_unknown "" -X POST -H 'Content-Type: image/png' -d 'x' "$bodies"
 
-submit sleep '{"ms":30000}' > /dev/null
-sleep 0.5
-for n in 1 2 3; do submit sleep "{\"ms\":3000$n}" > /dev/null; done
+wait_for_state "$(submit sleep '{"ms":600000}' | field .id)" running
+for n in 1 2 3; do submit sleep "{\"ms\":60000$n}" > /dev/null; done
 refused "a job for a full queue" 429 queue_full "" "${jobs[@]}" -d "$(job_text sleep '{"ms":4}')"
 expect "Retry-After" "$(submit sleep '{"ms":5}' -o /dev/null -D - | tr -d '\r' | sed -n 's/^Retry-After: //p')" 10
 

@@ -14,7 +14,7 @@ curl -sSI "$url/v1/jobs" | grep -qi '^WWW-Authenticate: Bearer' || fail "no WWW-
 expect "health needs no key" "$(status "$url/healthz")" 200
 
 test_inputs "${alice[@]}"
-job=$(submit write '{}' "${alice[@]}" -H 'Prefer: wait=20' | field .id)
+job=$(submit write '{}' "${alice[@]}" -H 'Prefer: wait=60' | field .id)
 expect "the owner's job" "$(status "${alice[@]}" "$url/v1/jobs/$job")" 200
 for path in "/v1/bodies/$body" "/v1/garments/$garment" "/v1/jobs/$job" "/v1/jobs/$job/artifacts" \
   "/v1/jobs/$job/artifacts/result.json" "/v1/jobs/$job/events"; do

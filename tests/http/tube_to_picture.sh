@@ -9,7 +9,7 @@ reference=$(post /v1/bodies '{"builtin":"tube-14-100"}' | jq -r .id)
 target=$(post /v1/bodies '{"builtin":"tube-18-100"}' | jq -r .id)
 request="{\"garment\":\"$garment\",\"reference_body\":\"$reference\",\"target_body\":\"$target\"}"
 job=$(post /v1/jobs "$request" | jq -r .id)
-for _ in $(seq 600); do
+for _ in $(seq 1500); do
   state=$(get "/v1/jobs/$job" | jq -r .state)
   [ "$state" = queued ] || [ "$state" = running ] || break
   sleep 0.2

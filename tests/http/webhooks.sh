@@ -21,7 +21,7 @@ server.serve_forever()
 PY
 /usr/bin/python3 "$work/receiver.py" "$work" &
 others+=($!)
-for _ in $(seq 100); do [ -s "$work/hook-port" ] && break; sleep 0.1; done
+for _ in $(seq 600); do [ -s "$work/hook-port" ] && break; sleep 0.1; done
 hook=http://127.0.0.1:$(cat "$work/hook-port")/told
 printf 'a secret of more than sixteen bytes' > "$work/secret"
 
@@ -34,7 +34,7 @@ stop_server
 
 start_server "$TOILE_TESTING" --workers 1 --webhook-secret "$work/secret" --webhook-private
 job=$(post /v1/jobs "$(with_hook "$hook")" | field .id)
-for _ in $(seq 200); do [ "$(cat "$work/received" 2> /dev/null | wc -l)" -ge 2 ] && break; sleep 0.1; done
+for _ in $(seq 1200); do [ "$(cat "$work/received" 2> /dev/null | wc -l)" -ge 2 ] && break; sleep 0.1; done
 expect "deliveries" "$(wc -l < "$work/received")" 2
 expect "message ids" "$(jq -r '.[0]' "$work/received" | sort -u | wc -l)" 1
 line=$(tail -1 "$work/received")

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Job kinds for tests of the service: well-behaved ones that cost nothing, and every way to end badly.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -20,12 +22,14 @@ Bytes bytes_of(const std::string& text) {
   return Bytes(text.begin(), text.end());
 }
 
-// {"ms": N}: sleeps, reports progress, can be cancelled.
+// {"ms": N} or {"until": FILE}: sleeps so long, or until the file is there; reports progress, can be cancelled.
 JobReport sleep_job(const JobContext& context) {
-  const int total = json::parse(context.options).value("ms", 100);
-  for (int slept = 0; slept < total; slept += 10) {
+  const json options = json::parse(context.options);
+  const std::string until = options.value("until", "");
+  const int total = options.value("ms", 100);
+  for (int slept = 0; until.empty() ? slept < total : !std::filesystem::exists(until); slept += 10) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    report(context.progress, "sleep", static_cast<double>(slept) / total);
+    report(context.progress, "sleep", std::min(0.99, static_cast<double>(slept) / total));
   }
   context.artifact("slept.txt", "text/plain", bytes_of(std::to_string(total)));
   return {};
