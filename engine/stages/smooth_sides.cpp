@@ -8,8 +8,9 @@ namespace toile {
 namespace {
 
 // Degree of the polynomial a side may move by: enough for the bulge of a hip or a knee, too few for specks of a scan.
-constexpr int kLeastDegree = 3, kMostDegree = 5;
+constexpr int kLeastDegree = 3, kMostDegree = 7;
 constexpr double kLengthPerDegree = 0.4;  // m
+constexpr double kRunsOn = 0.09;          // rad, 5 degrees: edges that meet in a lesser turn are one side
 constexpr double kNewDirection = 1e-4;    // share of a column that must be new for it to count, against rounding
 
 int degree_for(double length) {
@@ -47,6 +48,30 @@ Eigen::MatrixXd orthonormal(Eigen::MatrixXd columns) {
   return columns.leftCols(kept);
 }
 
+// Whether the second of two neighbouring edges runs on where the first one ends.
+bool runs_on(const PatternMesh& mesh, const std::vector<int>& in, const std::vector<int>& out) {
+  if (in.size() < 2 || out.size() < 2) return false;
+  const Vec2 before = mesh.rest.row(in.back()) - mesh.rest.row(in[in.size() - 2]);
+  const Vec2 after = mesh.rest.row(out[1]) - mesh.rest.row(out.front());
+  return std::abs(std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after))) < kRunsOn;
+}
+
+// The vertices along every side: a run of edges between two corners.
+std::vector<std::vector<int>> runs_of(const PatternMesh& mesh, const std::vector<std::vector<int>>& edges) {
+  const std::size_t n = edges.size();
+  std::size_t first = 0;
+  while (first < n && runs_on(mesh, edges[(first + n - 1) % n], edges[first])) ++first;
+  std::vector<std::vector<int>> runs;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::vector<int>& edge = edges[(first + i) % n];
+    if (i == 0 || !runs_on(mesh, edges[(first + i - 1) % n], edge))
+      runs.push_back(edge);
+    else
+      runs.back().insert(runs.back().end(), edge.begin() + 1, edge.end());
+  }
+  return runs;
+}
+
 }  // namespace
 
 double SmoothSide::energy(const Points2& rest) const {
@@ -58,7 +83,7 @@ double SmoothSide::energy(const Points2& rest) const {
 std::vector<SmoothSide> smooth_sides(const PatternMesh& mesh) {
   std::vector<SmoothSide> sides;
   for (const auto& panel : mesh.edge_vertices)
-    for (const std::vector<int>& vertices : panel) {
+    for (const std::vector<int>& vertices : runs_of(mesh, panel)) {
       if (vertices.size() < kLeastDegree + 2) continue;
       const Eigen::MatrixXd basis = orthonormal(shapes(mesh, vertices));
       const auto n = static_cast<Eigen::Index>(vertices.size());

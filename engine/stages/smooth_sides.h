@@ -16,7 +16,7 @@ struct SmoothSide {
   double energy(const Points2& rest) const;  // m^2
 };
 
-// One per side with vertices enough to be rough.
+// One per side with vertices enough to be rough; edges that meet in less than 5 degrees are one side.
 std::vector<SmoothSide> smooth_sides(const PatternMesh& mesh);
 
 }  // namespace toile
