@@ -29,7 +29,7 @@ class MeshBuilder {
   // Zero-based corner indices, at least three; they may name vertices that follow later.
   template <class Place>
   void add_polygon(std::span<const std::int64_t> corners, Place&& place) {
-    if (corners.size() < 3) fail(place(), "a face needs at least three corners");
+    if (corners.size() < 3) fail(place(), "a face needs at least three corners; export the file again");
     if (triangle_count() + static_cast<std::int64_t>(corners.size()) - 2 > limits_.triangles)
       refuse_triangles(triangle_count() + static_cast<std::int64_t>(corners.size()) - 2, place());
     for (const std::int64_t corner : corners)

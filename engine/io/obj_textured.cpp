@@ -84,7 +84,7 @@ class Reader {
       if (corners.size() >= kMostCorners) scanner_.fail("a face has more than 1000 corners; export triangles");
       corners.push_back(read_corner(word));
     }
-    if (corners.size() < 3) scanner_.fail("a face needs at least three corners");
+    if (corners.size() < 3) scanner_.fail("a face needs at least three corners; export the file again");
     require_room(obj_.triangles.size() + corners.size() - 3, limits_.triangles, "triangles");
     if (group_ < 0) group_ = 0, obj_.groups.emplace_back(), group_numbers_.emplace("", 0);
     for (std::size_t i = 2; i < corners.size(); ++i) {

@@ -29,7 +29,9 @@ class CornerWelder {
 
   template <class Place>
   void close_facet(Place&& place) {
-    if (filled_ != 3) builder_.fail(place(), "a facet has " + std::to_string(filled_) + " corners instead of three");
+    if (filled_ != 3)
+      builder_.fail(place(),
+                    "a facet has " + std::to_string(filled_) + " corners instead of three; export the file again");
     builder_.add_polygon(corners_, place);
     filled_ = 0;
   }

@@ -73,7 +73,7 @@ bool TextScanner::next_word(std::string_view& word) {
 
 std::string_view TextScanner::word(std::string_view what) {
   std::string_view found;
-  if (!next_word(found)) fail(std::string(what) + " is missing");
+  if (!next_word(found)) fail(std::string(what) + " is missing; the file is cut short or broken, export it again");
   return found;
 }
 
@@ -91,7 +91,7 @@ double TextScanner::to_number(std::string_view text, std::string_view what) cons
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool tiny = error == std::errc::result_out_of_range && is_below_one(digits);  // a zero for our purpose
   if ((error != std::errc() && !tiny) || end != digits.data() + digits.size() || !std::isfinite(value))
-    fail(std::string(what) + " '" + shown(text) + "' is not a finite number");
+    fail(std::string(what) + " '" + shown(text) + "' is not a finite number; export the file again");
   return value;
 }
 
@@ -99,7 +99,7 @@ std::int64_t TextScanner::to_integer(std::string_view text, std::string_view wha
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
-    fail(std::string(what) + " '" + shown(text) + "' is not a whole number");
+    fail(std::string(what) + " '" + shown(text) + "' is not a whole number; export the file again");
   return value;
 }
 

@@ -148,6 +148,13 @@ std::vector<Bad> bad_files() {
   };
 }
 
+// Whether a message says what to do about it.
+bool mends(const std::string& message) {
+  for (const char* verb : {"export", "copy", "decimate", "remove"})
+    if (message.find(verb) != std::string::npos) return true;
+  return false;
+}
+
 TEST(BadMesh, EveryBrokenFileIsRefusedWithPlaceAndMend) {
   for (const Bad& bad : bad_files()) {
     const std::string name = std::string(bad.what).substr(0, 3) == "STL" ? "input.stl" : "input.bin";
@@ -158,6 +165,7 @@ TEST(BadMesh, EveryBrokenFileIsRefusedWithPlaceAndMend) {
       EXPECT_EQ(error.code, bad.code) << bad.what << ": " << error.message;
       EXPECT_EQ(exit_code(error.code), 3) << bad.what;
       EXPECT_EQ(error.subject, name) << bad.what;
+      EXPECT_TRUE(mends(error.message)) << bad.what << ": " << error.message;
       for (const std::string& said : bad.said) EXPECT_THAT(error.message, HasSubstr(said)) << bad.what;
     }
   }
