@@ -4,7 +4,7 @@
 #include <cstring>
 #include <map>
 
-#include "tests/bench/bench.h"
+#include "tests/bench/proof.h"
 
 int main(int argc, char** argv) {
   using namespace toile::bench;
@@ -39,6 +39,9 @@ int main(int argc, char** argv) {
       {"transport",
        {"garments carried to other bodies and draped: [GARMENT...] [--body NAME] [--triangles N] [--pictures FOLDER]",
         bench_transport}},
+      {"stress",
+       {"random scenes in processes of their own: [--scenes N] [--seed S] [--kind KIND] [--limit SECONDS] [--all]",
+        bench_stress}},
       {"view", {"look at a body and a drape: BODY.obj [DRAPE.obj] OUT.png [--stretch 0.1]", bench_view}},
   };
   Arguments arguments;

@@ -5,26 +5,10 @@
 #include <cstdint>
 
 #include "engine/stages/mannequin_proportions.h"
+#include "tests/support/dice.h"
 
 namespace toile::test {
 namespace {
-
-// splitmix64: the standard library's distributions differ between machines.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : state_(seed) {}
-
-  double between(double low, double high) {
-    state_ += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return low + (high - low) * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1.0p-53;
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 struct Spread {
   const char* name;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A short run of the stress suite, and every scene that once ended badly. The long run: toile-bench stress.
+#include <tuple>
+
+#include <gtest/gtest.h>
+
+#include "tests/stress/stress_scene.h"
+
+namespace toile::stress {
+namespace {
+
+std::string complaint(const Outcome& outcome, std::uint64_t seed) {
+  std::string text = outcome.kind + " scene " + std::to_string(seed) + ", " + outcome.what + ":";
+  for (const std::string& wrong : outcome.wrong) text += "\n  " + wrong;
+  return text;
+}
+
+struct Share {
+  const char* kind;
+  int scenes;
+};
+
+class StressOf : public testing::TestWithParam<Share> {};
+
+TEST_P(StressOf, RandomScenesEndWell) {
+  const auto [kind, scenes] = GetParam();
+  int done = 0;
+  for (int i = 0; i < scenes; ++i) {
+    const auto seed = static_cast<std::uint64_t>(i) + 1;
+    const Outcome outcome = run_scene(kind, seed);
+    EXPECT_NE(outcome.ending, Ending::Bad) << complaint(outcome, seed);
+    done += outcome.ending == Ending::Done;
+  }
+  EXPECT_GT(3 * done, scenes) << "hardly any scene is done: the suite tests nothing";
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, StressOf,
+                         testing::Values(Share{"patchwork", 12}, Share{"person", 3}, Share{"body", 30},
+                                         Share{"cut", 12}, Share{"derive", 30}),
+                         [](const auto& kind) { return kind.param.kind; });
+
+}  // namespace
+}  // namespace toile::stress
