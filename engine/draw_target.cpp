@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "engine/geometry/curve.h"
 #include "engine/geometry/triangle_gradient.h"
 #include "engine/stages/outline_crossing.h"
 #include "engine/stages/place_on_edges.h"
@@ -13,6 +15,13 @@ namespace {
 
 constexpr std::array<double, 8> kKept = {1.0, 0.95, 0.9, 0.8, 0.6, 0.4, 0.2, 0.0};
 constexpr double kSeamTolerance = 0.5e-3;  // m; sewn sides that agree so far can be sewn
+
+// Whether nobody could cut it: it crosses itself, or there is next to nothing of it.
+bool unusable(const Panel& panel) {
+  for (int e = 0; e < panel.edge_count(); ++e)
+    if (!((panel.edge_end(e) - panel.edge_start(e)).norm() >= kShortestEdge)) return true;
+  return !(std::abs(outline_signed_area(panel)) >= kSmallestPanel) || find_outline_crossing(panel).has_value();
+}
 
 class Drawing {
  public:
@@ -44,7 +53,7 @@ class Drawing {
  private:
   struct Attempt {
     DrawnTarget target;
-    std::vector<bool> crossing;  // per panel
+    std::vector<bool> unusable;  // per panel
   };
 
   static bool any(const std::vector<bool>& flags) { return std::find(flags.begin(), flags.end(), true) != flags.end(); }
@@ -64,7 +73,7 @@ class Drawing {
     return target;
   }
 
-  // The inside is left out where an outline crosses itself: none would be without inverted triangles.
+  // The inside is left out where an outline is unusable: none would be without inverted triangles.
   Attempt attempt(double kept) const {
     Attempt tried;
     DrawnTarget& target = tried.target;
@@ -75,9 +84,8 @@ class Drawing {
     FitPatternEdgesOptions drawing;
     drawing.keep_straight = options_.keep_straight;
     target.drawn = fit_pattern_edges(pattern_, mesh_, rest, mirrors_, drawing);
-    for (const Panel& panel : target.drawn.pattern.panels)
-      tried.crossing.push_back(find_outline_crossing(panel).has_value());
-    if (any(tried.crossing)) return tried;
+    for (const Panel& panel : target.drawn.pattern.panels) tried.unusable.push_back(unusable(panel));
+    if (any(tried.unusable)) return tried;
     const Points2 outline = place_on_edges(pattern_, target.drawn.pattern, mesh_, rest);
     target.inside = derive_inside(mesh_, fit_, shape_, outline, mirrors_, options_, progress_);
     return tried;
@@ -99,7 +107,7 @@ class Drawing {
   }
 
   std::vector<bool> bad_panels(const Attempt& tried) const {
-    std::vector<bool> bad = tried.crossing;
+    std::vector<bool> bad = tried.unusable;
     if (tried.target.inside.flipped_triangles > 0)
       for (int f = 0; f < mesh_.triangle_count(); ++f)
         if (doubled_area(tried.target.inside.rest, mesh_.triangles, f) <= 0.0)

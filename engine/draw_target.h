@@ -2,7 +2,7 @@
 // Draw a derived pattern so that it can be cut: no panel overlaps itself, no triangle of its mesh is inverted.
 //
 // The derived outline is drawn with the original's edges, the mesh placed on the drawing and its inside solved again.
-// Should a panel then cross itself or a triangle stay inverted, that panel is held back: drawn from
+// Should a panel then cross itself, shrink to nothing or a triangle stay inverted, that panel is held back: drawn from
 // (1 - t) reference + t derived for the largest t that will do; where sewn sides no longer agree, all panels are.
 // The reference itself, t = 0, always will.  Metres.
 #pragma once

@@ -14,9 +14,6 @@ namespace toile {
 
 namespace {
 
-constexpr double kShortestEdge = 1e-5;   // m; a hundredth of a millimetre: shorter is a drawing mistake
-constexpr double kSmallestPanel = 1e-5;  // m^2; 10 mm^2
-
 std::string escaped(const std::string& key) {
   std::string step;
   for (const char c : key) step += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);

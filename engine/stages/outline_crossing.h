@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Does the outline of a panel, with its curves, cross or touch itself?  Metres.
+// What a panel must be to be cut: does its outline, with its curves, cross or touch itself, and how small may it be?
+// Metres.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,9 @@
 #include "engine/core/pattern.h"
 
 namespace toile {
+
+inline constexpr double kShortestEdge = 1e-5;   // m between start and end; shorter is a drawing mistake
+inline constexpr double kSmallestPanel = 1e-5;  // m^2; 10 mm^2
 
 struct OutlineCrossing {
   int first_edge = 0, second_edge = 0;

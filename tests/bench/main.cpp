@@ -42,6 +42,16 @@ int main(int argc, char** argv) {
       {"stress",
        {"random scenes in processes of their own: [--scenes N] [--seed S] [--kind KIND] [--limit SECONDS] [--all]",
         bench_stress}},
+      {"batch",
+       {"one garment for many bodies, stages shared: [GARMENT] [--bodies NAME,...] [--triangles N]", bench_batch}},
+      {"growth", {"a whole job over mesh sizes: [SCENE] [--sizes N,N,...]", bench_growth}},
+      {"ledger",
+       {"tolerance and reached value of every comparison of the tests: [--slow] [--filter F] [PROGRAM...]",
+        bench_ledger}},
+      {"pareto",
+       {"run time against error: [SCENE...] [--sizes N,...] [--residuals R,...] [--newton] [--fine N]", bench_pareto}},
+      {"skip", {"each saving off and on: [SCENE] [--triangles N]", bench_skip}},
+      {"threads", {"the same job several times at once: [GARMENT] [--bodies NAME] [--triangles N]", bench_threads}},
       {"view", {"look at a body and a drape: BODY.obj [DRAPE.obj] OUT.png [--stretch 0.1]", bench_view}},
   };
   Arguments arguments;

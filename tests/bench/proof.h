@@ -6,6 +6,12 @@
 
 namespace toile::bench {
 
+int bench_batch(const Arguments& arguments);
+int bench_growth(const Arguments& arguments);
+int bench_ledger(const Arguments& arguments);
+int bench_pareto(const Arguments& arguments);
+int bench_skip(const Arguments& arguments);
 int bench_stress(const Arguments& arguments);
+int bench_threads(const Arguments& arguments);
 
 }  // namespace toile::bench

@@ -14,6 +14,7 @@
 #include "engine/stages/import_pattern.h"
 #include "tests/stress/independent.h"
 #include "tests/stress/job_scene.h"
+#include "tests/stress/part_scenes.h"
 
 namespace toile::stress {
 namespace {
@@ -22,8 +23,6 @@ using nlohmann::json;
 
 // Two ways to the same figure, in double precision.
 constexpr double kRounding = 1e-7;
-// Area the alteration may lose or win besides what stretched cloth makes up for: openings below 0.2 cm2 are crumbs.
-constexpr double kCrumbs = 0.01;
 constexpr double kStrained = 0.5, kSunkShare = 0.05;  // what a drape may not be without a finding that says so
 // A scene moved sideways or sewn in another order comes to rest elsewhere by as much as its stop residual lets it.
 constexpr double kSameArea = 0.02, kSameStretch = 0.01;
@@ -124,25 +123,6 @@ void check_derivation(const json& stages, const DerivedGarment& derived, Outcome
   }
 }
 
-void check_alteration(const AlterPatternResult& altered, double stretch_limit, Outcome& outcome) {
-  double balance = 0.0, target = 0.0;
-  for (const PanelAlteration& panel : altered.panels) {
-    balance += polygon_area(panel.original) - polygon_area(panel.target);
-    target += polygon_area(panel.target);
-    for (const auto* regions : {&panel.insertions, &panel.removals})
-      for (const AlteredRegion& region : *regions) {
-        double area = polygon_area(region.shape.outline);
-        for (const auto& hole : region.shape.holes) area -= std::abs(polygon_area(hole));
-        balance += regions == &panel.insertions ? area : -area;
-        expect_near(outcome, "area of " + region.name, region.area, area, 1e-9);
-      }
-  }
-  if (!(target > 0)) return outcome.fail("the target pattern has no area");
-  expect_near(outcome, "area imbalance", altered.area_imbalance, std::abs(balance) / target, 1e-6);
-  if (altered.area_imbalance > 2 * stretch_limit + kCrumbs && altered.flags.empty() && altered.sewn.flags.empty())
-    outcome.fail(print_text("cloth of %.2f %% is lost or won without a word", 100 * altered.area_imbalance));
-}
-
 const OutputFile* file_named(const std::vector<OutputFile>& files, const std::string& name) {
   const auto found = std::find_if(files.begin(), files.end(), [&](const OutputFile& f) { return f.name == name; });
   return found == files.end() ? nullptr : &*found;
@@ -190,7 +170,7 @@ void check_result(const Run& run, double stretch_limit, Outcome& outcome) {
     check_not_silent(quality.at(part.name), part.drape, part.name, outcome);
   }
   check_derivation(told.at("stages"), r, outcome);
-  check_alteration(r.altered, stretch_limit, outcome);
+  check_balance(r.altered, stretch_limit, outcome);
   check_files(run, outcome);
 }
 

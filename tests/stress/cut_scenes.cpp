@@ -63,16 +63,7 @@ void run_cut_scene(test::Dice& dice, Outcome& outcome) {
   outcome.what = print_text("%zu panels", flat.pattern.panels.size());
   const Points2 target = random_target(dice, flat.mesh, wild, outcome);
   const AlterPatternResult result = alter_pattern(flat.pattern, flat.mesh, target);
-  double balance = 0.0, area = 0.0;
-  for (const PanelAlteration& panel : result.panels) {
-    balance += polygon_area(panel.original) - polygon_area(panel.target);
-    area += polygon_area(panel.target);
-    for (const AlteredRegion& region : panel.insertions) balance += region.area;
-    for (const AlteredRegion& region : panel.removals) balance -= region.area;
-  }
-  const double kept_stretch = 2 * AlterPatternOptions().stretch_limit + 0.01;  // and crumbs
-  if (!(std::abs(balance) <= kept_stretch * area) && result.flags.empty() && result.sewn.flags.empty())
-    outcome.fail(print_text("cloth of %.2f %% is lost or won without a word", 100 * std::abs(balance) / area));
+  check_balance(result, AlterPatternOptions().stretch_limit, outcome);
   if (!result.sewn.pieces.empty()) {
     try {
       validate_pattern(result.sewn.pattern);

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// batch [GARMENT] [--bodies NAME,NAME,...] [--triangles N]: one garment for many bodies of one family with the stages
+// shared, against each job alone; and two such jobs at once in two threads. CPU and wall seconds of every body, and
+// whether the files are the same to the last byte.
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include "tests/bench/proof.h"
+#include "tests/bench/whole_job.h"
+#include "tests/support/shared_data.h"
+
+namespace toile::bench {
+namespace {
+
+struct Request {
+  std::string garment = "leggings_tight";
+  std::vector<std::string> bodies = {"ggg_mean_female", "ggg_small_female", "ggg_male_extra", "ggg_large_male"};
+  int triangles = 10000;
+};
+
+Request parse(const std::vector<std::string>& words) {
+  Request request;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool more = i + 1 < words.size();
+    if (words[i] == "--triangles" && more) {
+      request.triangles = std::atoi(words[++i].c_str());
+    } else if (words[i] == "--bodies" && more) {
+      request.bodies.clear();
+      std::istringstream in(words[++i]);
+      for (std::string part; std::getline(in, part, ',');) request.bodies.push_back(part);
+    } else {
+      request.garment = words[i];
+    }
+  }
+  return request;
+}
+
+class MemoryStages : public StageCache {
+ public:
+  std::optional<Bytes> get(const std::string& key) override {
+    const std::lock_guard lock(mutex_);
+    const auto found = kept_.find(key);
+    return found == kept_.end() ? std::nullopt : std::optional(found->second);
+  }
+  void put(const std::string& key, const Bytes& value) override {
+    const std::lock_guard lock(mutex_);
+    kept_.emplace(key, value);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, Bytes> kept_;
+};
+
+bool same_files(const std::vector<OutputFile>& a, const std::vector<OutputFile>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (a[i].name != b[i].name || a[i].bytes != b[i].bytes) return false;
+  return true;
+}
+
+test::Scene scene_of(const Request& request, const std::string& body) {
+  return test::named_scene(request.garment + ":" + body);
+}
+
+AlterOptions options_of(const Request& request) {
+  AlterOptions options;
+  options.triangles = request.triangles;
+  options.outputs = {"altered_pattern.svg", "ticket.json", "target_pattern.json"};
+  return options;
+}
+
+}  // namespace
+
+int bench_batch(const Arguments& arguments) {
+  const Request request = parse(arguments.words);
+  const AlterOptions options = options_of(request);
+  Table table({"body", "alone CPU s", "in the batch CPU s", "share %", "stages reused", "same bytes"});
+  MemoryStages stages;
+  for (const std::string& body : request.bodies) {
+    const test::Scene scene = scene_of(request, body);
+    const JobRun alone = run_job(scene, options), shared = run_job(scene, options, &stages);
+    int reused = 0;
+    for (const StageCost& stage : shared.stages) reused += stage.reused;
+    table.add({body, fixed(alone.cpu_s, 2), fixed(shared.cpu_s, 2), fixed(100 * shared.cpu_s / alone.cpu_s, 0),
+               std::to_string(reused), same_files(alone.files, shared.files) ? "yes" : "NO"});
+  }
+  table.print(arguments.csv);
+  return 0;
+}
+
+int bench_threads(const Arguments& arguments) {
+  Request request = parse(arguments.words);
+  const AlterOptions options = options_of(request);
+  const test::Scene scene = scene_of(request, request.bodies.front());
+  const JobRun alone = run_job(scene, options);
+  Table table({"jobs at once", "wall s", "CPU s a job", "jobs a wall second over one", "same bytes"});
+  table.add({"1", fixed(alone.wall_s, 2), fixed(alone.cpu_s, 2), "1.00", "yes"});
+  for (const int count : {2, 4}) {
+    std::vector<JobRun> runs(static_cast<std::size_t>(count));
+    const double wall = wall_seconds(), cpu = cpu_seconds();
+    std::vector<std::thread> threads;
+    for (JobRun& run : runs) threads.emplace_back([&] { run = run_job(scene, options); });
+    for (std::thread& thread : threads) thread.join();
+    const double took = wall_seconds() - wall;
+    bool same = true;
+    for (const JobRun& run : runs) same = same && same_files(run.files, alone.files);
+    table.add({std::to_string(count), fixed(took, 2), fixed((cpu_seconds() - cpu) / count, 2),
+               fixed(count * alone.wall_s / took, 2), same ? "yes" : "NO"});
+  }
+  table.print(arguments.csv);
+  return 0;
+}
+
+}  // namespace toile::bench
