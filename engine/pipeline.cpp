@@ -61,7 +61,7 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   });
   const auto plane = mirror_plane_of(options, pattern);
   const auto derived =
-      runner.run("derive_pattern", 6, key_of(transported.key, derive_options, loop_options, plane), [&] {
+      runner.run("derive_pattern", 7, key_of(transported.key, derive_options, loop_options, plane), [&] {
         const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
         return derive_in_loop(pattern, mesh, fit, target, transported.value.drape, mirrors, derive_options,
                               drape_options, loop_options, runner.progress());

@@ -35,9 +35,28 @@ TEST_P(StressOf, RandomScenesEndWell) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, StressOf,
-                         testing::Values(Share{"patchwork", 12}, Share{"person", 3}, Share{"body", 30},
-                                         Share{"cut", 12}, Share{"derive", 30}),
+                         testing::Values(Share{"patchwork", 8}, Share{"person", 2}, Share{"body", 30}, Share{"cut", 10},
+                                         Share{"derive", 30}),
                          [](const auto& kind) { return kind.param.kind; });
+
+struct Fixture {
+  const char* kind;
+  std::uint64_t seed;
+  const char* was;  // wrong
+};
+
+class StressFixture : public testing::TestWithParam<Fixture> {};
+
+TEST_P(StressFixture, EndsWell) {
+  const Outcome outcome = run_scene(GetParam().kind, GetParam().seed);
+  EXPECT_NE(outcome.ending, Ending::Bad) << complaint(outcome, GetParam().seed) << "\nonce: " << GetParam().was;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Seeds, StressFixture,
+    testing::Values(Fixture{"patchwork", 23, "a sliver became a target panel too small to be read back"},
+                    Fixture{"patchwork", 184, "a sliver became a target panel too small to be read back"}),
+    [](const auto& fixture) { return fixture.param.kind + std::to_string(fixture.param.seed); });
 
 }  // namespace
 }  // namespace toile::stress
