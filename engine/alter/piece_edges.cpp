@@ -6,6 +6,7 @@
 
 #include "engine/geometry/fit_curve.h"
 #include "engine/geometry/part_of_curve.h"
+#include "engine/geometry/polygon_boolean.h"
 
 namespace toile {
 namespace {
@@ -16,6 +17,10 @@ constexpr double kStraight = 2e-4;    // m
 constexpr double kSmooth = 8e-4;      // m: of a Bézier through the chain's points
 constexpr double kSameLength = 3e-4;  // m: of such a Bézier and the chain
 constexpr double kPolyline = 5e-5;    // m: of the polyline where no Bézier follows
+constexpr double kFlat = 2e-5;        // m: of the chords an outline is tested by
+constexpr double kLeastChord = 2e-5;  // m between the ends of an edge: less is no edge
+constexpr double kOtherLength =
+    2e-3;  // m an edge may differ from its chain, and a tenth: corners are snapped to places
 
 struct OriginalPart {
   int edge = -1;
@@ -80,6 +85,13 @@ std::vector<Vec2> thinned(const std::vector<Vec2>& points, double tolerance) {
   return inner;
 }
 
+EdgeCurve polyline_through(const std::vector<Vec2>& points) {
+  EdgeCurve curve;
+  curve.points = thinned(points, kPolyline);
+  if (!curve.points.empty()) curve.kind = CurveKind::Polyline;
+  return curve;
+}
+
 // The simplest curve through the points.
 EdgeCurve curve_through(const std::vector<Vec2>& points) {
   EdgeCurve curve;
@@ -99,9 +111,20 @@ EdgeCurve curve_through(const std::vector<Vec2>& points) {
     const CurveFit fit = fit_curve(guess, {points.begin() + 1, points.end() - 1}, parameters);
     if (fit.deviation < kSmooth && std::abs(curve_length(fit.curve) - length) < kSameLength) return fit.curve.shape;
   }
-  curve.points = thinned(points, kPolyline);
-  if (!curve.points.empty()) curve.kind = CurveKind::Polyline;
-  return curve;
+  return polyline_through(points);
+}
+
+// Whether the edges make an outline that does not cross itself, each about as long as its chain.
+bool can_be_cut(const PieceEdges& edges) {
+  std::vector<Vec2> outline;
+  for (std::size_t k = 0; k < edges.corners.size(); ++k) {
+    const Curve curve{edges.corners[k], edges.corners[(k + 1) % edges.corners.size()], edges.curves[k]};
+    if (!((curve.end - curve.start).norm() > kLeastChord)) return false;
+    if (!(std::abs(curve_length(curve) - edges.lengths[k]) < kOtherLength + 0.1 * edges.lengths[k])) return false;
+    const std::vector<Vec2> points = flatten_curve(curve, kFlat);
+    outline.insert(outline.end(), points.begin(), points.end() - 1);
+  }
+  return is_simple_polygon(outline);
 }
 
 class EdgeDrawer {
@@ -117,22 +140,38 @@ class EdgeDrawer {
     }
   }
 
+  // Original curves, and smooth ones through the rest, can cross where the chains they stand for run close by each
+  // other; then the piece is drawn as its border runs.
   PieceEdges run() {
+    PieceEdges smooth = start();
     const std::size_t count = points_.size();
-    PieceEdges result;
-    for (std::size_t k = 0; k < count; ++k) result.corners.push_back(corner((k + count - 1) % count, k));
+    const std::vector<std::vector<Vec2>> border = points_;
+    for (std::size_t k = 0; k < count; ++k) smooth.corners.push_back(corner((k + count - 1) % count, k));
     for (std::size_t k = 0; k < count; ++k) {
       std::vector<Vec2>& points = points_[k];
-      result.lengths.push_back(length_of(points));
-      points.front() = result.corners[k];
-      points.back() = result.corners[(k + 1) % count];
-      result.of_edge.push_back(parts_[k].edge);
-      result.curves.push_back(parts_[k].edge >= 0 ? original_curve(k) : curve_through(points));
+      points.front() = smooth.corners[k];
+      points.back() = smooth.corners[(k + 1) % count];
+      smooth.curves.push_back(parts_[k].edge >= 0 ? original_curve(k) : curve_through(points));
     }
-    return result;
+    if (can_be_cut(smooth)) return smooth;
+    PieceEdges plain = start();
+    for (const std::vector<Vec2>& points : border) {
+      plain.corners.push_back(points.front());
+      plain.curves.push_back(polyline_through(points));
+    }
+    return plain;
   }
 
  private:
+  PieceEdges start() const {
+    PieceEdges edges;
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      edges.lengths.push_back(length_of(points_[k]));
+      edges.of_edge.push_back(parts_[k].edge);
+    }
+    return edges;
+  }
+
   // Where chain `before` ends and `after` begins: an original corner, or a place on an original edge.
   Vec2 corner(std::size_t before, std::size_t after) const {
     const Vec2 here = points_[after].front();

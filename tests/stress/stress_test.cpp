@@ -55,7 +55,10 @@ TEST_P(StressFixture, EndsWell) {
 INSTANTIATE_TEST_SUITE_P(
     Seeds, StressFixture,
     testing::Values(Fixture{"patchwork", 23, "a sliver became a target panel too small to be read back"},
-                    Fixture{"patchwork", 184, "a sliver became a target panel too small to be read back"}),
+                    Fixture{"patchwork", 184, "a sliver became a target panel too small to be read back"},
+                    Fixture{"patchwork", 26, "curves drawn through the pieces' borders crossed each other"},
+                    Fixture{"cut", 20, "two corners of a piece fell into one: an edge of no length"},
+                    Fixture{"cut", 1012, "a piece had a corner kilometres away"}),
     [](const auto& fixture) { return fixture.param.kind + std::to_string(fixture.param.seed); });
 
 }  // namespace
