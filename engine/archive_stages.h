@@ -106,10 +106,10 @@ void archive(A& a, DerivedPattern& v) {
 
 template <class A>
 void archive(A& a, AlterPatternOptions& v) {
-  auto& [max_tears_per_side, seam_preference, stretch_limit, l_shapes, choice, mesh_edge_cuts, cut_smoothness,
-         least_strip, least_change, least_allowance_left] = v;
-  a(max_tears_per_side, seam_preference, stretch_limit, l_shapes, choice, mesh_edge_cuts, cut_smoothness, least_strip,
-    least_change, least_allowance_left);
+  auto& [max_tears_per_side, seam_preference, stretch_limit, l_shapes, symmetric, choice, mesh_edge_cuts,
+         cut_smoothness, least_strip, least_change, least_allowance_left] = v;
+  a(max_tears_per_side, seam_preference, stretch_limit, l_shapes, symmetric, choice, mesh_edge_cuts, cut_smoothness,
+    least_strip, least_change, least_allowance_left);
 }
 template <class A>
 void archive(A& a, TicketSide& v) {
@@ -155,8 +155,8 @@ void archive(A& a, AlteredRegion& v) {
 }
 template <class A>
 void archive(A& a, SheetStress& v) {
-  auto& [energy, p98, area, over] = v;
-  a(energy, p98, area, over);
+  auto& [energy, p95, p98, area, over] = v;
+  a(energy, p95, p98, area, over);
 }
 template <class A>
 void archive(A& a, Tear& v) {
@@ -175,9 +175,10 @@ void archive(A& a, PanelTearing& v) {
 }
 template <class A>
 void archive(A& a, PanelAlteration& v) {
-  auto& [panel, original, target, kept, cut_lines, kept_in_target, insertions, removals, insertion_pass, removal_pass] =
-      v;
-  a(panel, original, target, kept, cut_lines, kept_in_target, insertions, removals, insertion_pass, removal_pass);
+  auto& [panel, original, target, kept, cut_lines, kept_in_target, insertions, removals, cut_back, insertion_pass,
+         removal_pass] = v;
+  a(panel, original, target, kept, cut_lines, kept_in_target, insertions, removals, cut_back, insertion_pass,
+    removal_pass);
 }
 template <class A>
 void archive(A& a, PieceMap& v) {

@@ -41,6 +41,7 @@ AlterPatternOptions alter_options_of(const AlterOptions& options) {
   alter.seam_preference = options.seam_preference;
   alter.stretch_limit = options.stretch_limit;
   alter.l_shapes = options.l_shapes;
+  alter.symmetric = options.symmetry != SymmetryMode::Off;
   switch (options.tear_weights) {
     case TearWeights::Release: alter.choice = TearChoice::Release; break;
     case TearWeights::Boundary: alter.choice = TearChoice::Boundary; break;

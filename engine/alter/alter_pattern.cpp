@@ -5,15 +5,19 @@
 #include <cassert>
 #include <set>
 
+#include "engine/alter/coarse_pattern.h"
 #include "engine/alter/read_operations.h"
 #include "engine/alter/sew_altered.h"
 
 namespace toile {
 namespace {
 
-constexpr double kLeastPart = 2e-5;  // m^2: what a dart leaves of an opening and is smaller is crumbs
+constexpr int kPlanTriangles = 600;      // of the garment: tears are chosen on so many
+constexpr double kPastMouth = 0.001;     // m
+constexpr double kMostImbalance = 0.03;  // of the area of a panel: more is no stretch but pieces that overlap
+constexpr double kLeastPart = 2e-5;      // m^2: what a dart leaves of an opening and is smaller is crumbs
 
-TearPatternOptions pass_options(const AlterPatternOptions& options) {
+TearPatternOptions pass_options(const Pattern& pattern, const AlterPatternOptions& options, bool removing) {
   TearPatternOptions pass;
   pass.candidates.stretch_limit = options.stretch_limit;
   pass.candidates.least_strip = options.least_strip;
@@ -24,17 +28,26 @@ TearPatternOptions pass_options(const AlterPatternOptions& options) {
   pass.choice.max_tears_per_side = options.max_tears_per_side;
   pass.choice.l_shapes = options.l_shapes;
   pass.choice.greedy = options.choice == TearChoice::Greedy;
+  pass.symmetric = options.symmetric && pattern.symmetry != Pattern::Symmetry::None;
+  pass.removing = removing;
   return pass;
 }
 
-// Outlines of a panel's darts and slits, which the stretched sheet has filled.
+// Outlines of a panel's darts and slits, which the stretched sheet has filled; a little past the mouth, so that no skin
+// of cloth closes it.
 Loops wedge_outlines(const std::vector<DartWedge>& wedges, const Points2& rest) {
   Loops outlines;
   for (const DartWedge& wedge : wedges) {
-    outlines.emplace_back();
-    for (const int v : wedge.legs[1]) outlines.back().emplace_back(rest.row(v));
-    for (auto v = wedge.legs[0].rbegin() + 1; v != wedge.legs[0].rend(); ++v)
-      outlines.back().emplace_back(rest.row(*v));
+    std::vector<Vec2> loop;
+    const auto add_past = [&](const std::vector<int>& leg) {
+      const Vec2 mouth = rest.row(leg[0]), next = rest.row(leg[1]);
+      loop.emplace_back(mouth + kPastMouth * (mouth - next).normalized());
+    };
+    add_past(wedge.legs[1]);
+    for (const int v : wedge.legs[1]) loop.emplace_back(rest.row(v));
+    for (auto v = wedge.legs[0].rbegin() + 1; v != wedge.legs[0].rend(); ++v) loop.emplace_back(rest.row(*v));
+    add_past(wedge.legs[0]);
+    outlines.push_back(std::move(loop));
   }
   return outlines;
 }
@@ -109,8 +122,19 @@ std::vector<std::vector<Vec2>> cut_lines(const Sheet& sheet) {
 void add_flag(AlterPatternResult& result, const std::string& panel, const char* pass, const PanelTearing& tearing) {
   if (tearing.done) return;
   char stretch[32];
-  std::snprintf(stretch, sizeof stretch, "%.1f", 100.0 * tearing.after.p98);
+  std::snprintf(stretch, sizeof stretch, "%.1f", 100.0 * tearing.after.p95);
   result.flags.push_back("panel " + panel + ": " + pass + " leaves " + stretch + " % stretch; " + tearing.reason);
+}
+
+void check_balance(AlterPatternResult& result, const PanelAlteration& panel) {
+  const double target = signed_area(panel.target);
+  double off = signed_area(panel.original) - target - panel.cut_back;
+  for (const AlteredRegion& region : panel.insertions) off += region.area;
+  for (const AlteredRegion& region : panel.removals) off -= region.area;
+  if (std::abs(off) <= kMostImbalance * target || (panel.insertions.empty() && panel.removals.empty())) return;
+  char share[32];
+  std::snprintf(share, sizeof share, "%.1f", 100.0 * off / target);
+  result.flags.push_back("panel " + panel.panel + ": pieces add up to " + share + " % more than its area");
 }
 
 void sum_up(AlterPatternResult& result) {
@@ -119,8 +143,10 @@ void sum_up(AlterPatternResult& result) {
     result.target_area += signed_area(panel.target);
     for (const AlteredRegion& region : panel.insertions) result.inserted_area += region.area;
     for (const AlteredRegion& region : panel.removals) result.removed_area += region.area;
+    result.removed_area += panel.cut_back;
     add_flag(result, panel.panel, "inserting", panel.insertion_pass);
     add_flag(result, panel.panel, "removing", panel.removal_pass);
+    check_balance(result, panel);
   }
   result.area_imbalance =
       std::abs(result.original_area + result.inserted_area - result.removed_area - result.target_area) /
@@ -132,17 +158,28 @@ void sum_up(AlterPatternResult& result) {
 AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
                                  const AlterPatternOptions& options, Progress* progress) {
   assert(target_rest.rows() == mesh.vertex_count() && pattern.panels.size() == mesh.panels.size());
-  const TearPatternOptions pass = pass_options(options);
-  const TornPattern inserting = tear_pattern(pattern, mesh, mesh.rest, target_rest, pass, progress);
-  const TornPattern removing = tear_pattern(pattern, mesh, target_rest, mesh.rest, pass, progress);
+  const CoarsePattern coarse = coarsen(pattern, mesh, target_rest, kPlanTriangles);
+  const TornPattern inserting =
+      tear_pattern(pattern, {mesh, mesh.rest, target_rest}, {coarse.mesh, coarse.mesh.rest, coarse.target_rest},
+                   pass_options(pattern, options, false), progress);
+  const TornPattern removing =
+      tear_pattern(pattern, {mesh, target_rest, mesh.rest}, {coarse.mesh, coarse.target_rest, coarse.mesh.rest},
+                   pass_options(pattern, options, true), progress);
   AlterPatternResult result;
   result.insertion_rounds = inserting.rounds;
   result.removal_rounds = removing.rounds;
   result.trials = inserting.trials + removing.trials;
   result.reverted = inserting.reverted + removing.reverted;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
-    const RecutPanel insertion = recut(inserting.sheets[p], {options.l_shapes});
-    const RecutPanel removal = recut(removing.sheets[p], {options.l_shapes});
+    RecutOptions insert_options;
+    insert_options.l_shapes = options.l_shapes;
+    insert_options.least_strip = options.least_strip;
+    insert_options.side_room =
+        side_rooms(pattern, static_cast<int>(p), inserting.sheets[p].sides, options.least_allowance_left);
+    const RecutPanel insertion = recut(inserting.sheets[p], insert_options);
+    RecutOptions remove_options;
+    remove_options.l_shapes = options.l_shapes;
+    const RecutPanel removal = recut(removing.sheets[p], remove_options);
     const Loops wedges = wedge_outlines(inserting.sheets[p].wedges, mesh.rest),
                 target_wedges = wedge_outlines(inserting.sheets[p].wedges, target_rest);
     PanelAlteration panel;
@@ -156,6 +193,7 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
     panel.removals = regions_of(removal, panel.panel + "_removal_", wedges);
     panel.insertion_pass = inserting.panels[p];
     panel.removal_pass = removing.panels[p];
+    panel.cut_back = insertion.cut_back;
     result.dropped_regions += insertion.dropped + removal.dropped;
     result.panels.push_back(std::move(panel));
   }

@@ -27,6 +27,7 @@ struct AlterPatternOptions {
   double seam_preference = 1.5;  // gamma, favours existing seams over new cuts, >= 1
   double stretch_limit = 0.03;   // mu, stretch the altered cloth may keep, dimensionless, > 0
   bool l_shapes = false;         // leave L- and T-shaped insertions in one piece; else they become strips
+  bool symmetric = true;  // what is done on the wearer's left is done on the right, where panels are mirror images
   TearChoice choice = TearChoice::Release;
   bool mesh_edge_cuts = false;          // cut along mesh edges as the paper does, for comparison
   double cut_smoothness = 0.5;          // alpha, of cuts along mesh edges, 0-1
@@ -50,6 +51,7 @@ struct PanelAlteration {
   std::vector<std::vector<Vec2>> cut_lines;       // in the original cloth: where insertions are let in
   std::vector<std::vector<Vec2>> kept_in_target;  // where the stretched cloth lies in the target panel
   std::vector<AlteredRegion> insertions, removals;
+  double cut_back = 0.0;                      // m^2, of cloth cut away to make room for insertions of the least width
   PanelTearing insertion_pass, removal_pass;  // stress before and after, tears with their weights
 };
 

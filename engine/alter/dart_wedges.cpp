@@ -55,6 +55,16 @@ std::vector<DartWedge> find_dart_wedges(const Pattern& pattern, const PatternMes
   return wedges;
 }
 
+std::vector<DartWedge> same_wedges(std::vector<DartWedge> wedges, const PatternMesh& mesh, int panel) {
+  const std::vector<OutlineEdge> edges = outline_edges(mesh, panel);
+  for (DartWedge& wedge : wedges)
+    for (const OutlineEdge& edge : edges) {
+      if (edge.edge == wedge.edges[0]) wedge.legs[0] = edge.vertices;
+      if (edge.edge == wedge.edges[1]) wedge.legs[1].assign(edge.vertices.rbegin(), edge.vertices.rend());
+    }
+  return wedges;
+}
+
 std::vector<std::array<int, 3>> wedge_triangles(const DartWedge& wedge, const Points2& rest) {
   std::vector<std::array<int, 3>> triangles;
   const std::vector<int>&in = wedge.legs[0], &out = wedge.legs[1];

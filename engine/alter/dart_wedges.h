@@ -21,6 +21,9 @@ struct DartWedge {
 // equal length and longer than their mouth, sewn to each other or not at all, in a side that goes on straight.
 std::vector<DartWedge> find_dart_wedges(const Pattern& pattern, const PatternMesh& mesh, int panel);
 
+// The same wedges on another mesh of the panel.
+std::vector<DartWedge> same_wedges(std::vector<DartWedge> wedges, const PatternMesh& mesh, int panel);
+
 // Triangles that fill the wedge between its legs, counter-clockwise, as pattern vertices.
 std::vector<std::array<int, 3>> wedge_triangles(const DartWedge& wedge, const Points2& rest);
 

@@ -159,7 +159,7 @@ void ClothSource::relax_both(const AlteredPart& part, PieceCloth& cloth) const {
     sheet.faces.push_back({cloth.map.triangles(f, 0), cloth.map.triangles(f, 1), cloth.map.triangles(f, 2)});
   sheet.folded.assign(sheet.faces.size(), false);
   attach_borders(part, cloth, inserted, removed, sheet);
-  relax(sheet);
+  relax(sheet, {.hold = 0.0});  // the guide tells lengths here, not places
   for (Eigen::Index v = 0; v < cloth.map.rest.rows(); ++v)
     cloth.map.rest.row(v) = sheet.vertices[static_cast<std::size_t>(v)].now;
 }

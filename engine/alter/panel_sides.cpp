@@ -2,6 +2,8 @@
 #include "engine/alter/panel_sides.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "engine/alter/panel_outline.h"
 #include "engine/core/units.h"
@@ -14,13 +16,24 @@ bool edge_is_sewn(const Pattern& pattern, const SeamSide& side) {
                      [&](const Seam& seam) { return seam.a == side || seam.b == side; });
 }
 
-void append(PanelSide& side, const OutlineEdge& edge, const Pattern& pattern, int panel) {
-  side.edges.push_back(edge.edge);
+// The ply that is sewn to a zip is not opened either.
+bool is_sewn_to_zip(const Pattern& pattern, const SeamSide& side) {
+  return std::any_of(pattern.seams.begin(), pattern.seams.end(), [&](const Seam& seam) {
+    return (seam.a == side && pattern.edge(seam.b).zip) || (seam.b == side && pattern.edge(seam.a).zip);
+  });
+}
+
+void append_vertices(PanelSide& side, const OutlineEdge& edge) {
   // Across the mouth of a wedge the side goes on with a vertex of its own.
   const bool joined = !side.vertices.empty() && side.vertices.back() == edge.vertices.front();
   side.vertices.insert(side.vertices.end(), edge.vertices.begin() + (joined ? 1 : 0), edge.vertices.end());
+}
+
+void append(PanelSide& side, const OutlineEdge& edge, const Pattern& pattern, int panel) {
+  side.edges.push_back(edge.edge);
+  append_vertices(side, edge);
   const SeamSide name{PanelId(panel), edge.edge};
-  side.locked = side.locked || pattern.edge(name).locked || pattern.edge(name).zip;
+  side.locked = side.locked || pattern.edge(name).locked || pattern.edge(name).zip || is_sewn_to_zip(pattern, name);
   side.sewn = side.sewn || edge_is_sewn(pattern, name);
 }
 
@@ -58,6 +71,33 @@ std::vector<PanelSide> find_panel_sides(const Pattern& pattern, const PatternMes
           const PanelEdge& leg = pattern.panels[static_cast<std::size_t>(panel)].edges[static_cast<std::size_t>(edge)];
           side.locked = side.locked || leg.locked || leg.zip;
         }
+  return sides;
+}
+
+double allowance_of(const Pattern& pattern, int panel, const PanelSide& side) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const int number : side.edges) {
+    const PanelEdge& edge = pattern.edge({PanelId(panel), number});
+    const double own = edge.hem ? *edge.hem : edge.seam_allowance.value_or(pattern.seam_allowance);
+    least = std::min(least, edge.on_fold ? 0.0 : own);
+  }
+  return std::isfinite(least) ? least : 0.0;
+}
+
+std::vector<double> side_rooms(const Pattern& pattern, int panel, const std::vector<PanelSide>& sides, double left) {
+  std::vector<double> rooms;
+  for (const PanelSide& side : sides) rooms.push_back(allowance_of(pattern, panel, side) - left);
+  return rooms;
+}
+
+std::vector<PanelSide> same_sides(std::vector<PanelSide> sides, const PatternMesh& mesh, int panel) {
+  const std::vector<OutlineEdge> edges = outline_edges(mesh, panel);
+  for (PanelSide& side : sides) {
+    side.vertices.clear();
+    for (const int number : side.edges)
+      for (const OutlineEdge& edge : edges)
+        if (edge.edge == number) append_vertices(side, edge);
+  }
   return sides;
 }
 

@@ -25,6 +25,15 @@ struct PanelSide {
 std::vector<PanelSide> find_panel_sides(const Pattern& pattern, const PatternMesh& mesh, int panel,
                                         const std::vector<DartWedge>& wedges);
 
+// Cloth turned in along a side: its hem or seam allowance, the least of its edges; none on a fold. m.
+double allowance_of(const Pattern& pattern, int panel, const PanelSide& side);
+
+// The most that every side is let out without new cloth, when `left` of what is turned in must remain; m.
+std::vector<double> side_rooms(const Pattern& pattern, int panel, const std::vector<PanelSide>& sides, double left);
+
+// The same sides on another mesh of the panel.
+std::vector<PanelSide> same_sides(std::vector<PanelSide> sides, const PatternMesh& mesh, int panel);
+
 // The same pattern vertex seen from the other ply.
 struct SeamPartner {
   int panel = -1;

@@ -38,16 +38,26 @@ void add_release_mouths(const Sheet& sheet, int side, TearOutcome& outcome) {
   }
 }
 
-TearOutcome release_side(Sheet& sheet, int side, const TearOptions& options, Progress* progress) {
-  for (SheetVertex& vertex : sheet.vertices)
-    if (SheetAnchor* anchor = vertex.anchor(side)) anchor->attached = false;
-  relax(sheet, options.relaxation, progress);
-  TearOutcome outcome;
-  outcome.largest_gap = attach_shut(sheet, side, options.least_gap);
-  outcome.opened = outcome.largest_gap > 0.0;
-  relax(sheet, options.relaxation, progress);
-  add_release_mouths(sheet, side, outcome);
-  return outcome;
+void release_sides(Sheet& sheet, const std::vector<Tear>& tears, const TearOptions& options, Progress* progress,
+                   SparseSolver* solver, std::vector<TearOutcome>& outcomes) {
+  bool any = false;
+  for (const Tear& tear : tears)
+    if (tear.kind == TearKind::Release)
+      for (SheetVertex& vertex : sheet.vertices)
+        if (SheetAnchor* anchor = vertex.anchor(tear.side)) {
+          anchor->attached = false;
+          any = true;
+        }
+  if (!any) return;
+  relax(sheet, options.relaxation, progress, solver);
+  for (std::size_t i = 0; i < tears.size(); ++i) {
+    if (tears[i].kind != TearKind::Release) continue;
+    outcomes[i].largest_gap = attach_shut(sheet, tears[i].side, options.least_gap);
+    outcomes[i].opened = outcomes[i].largest_gap > 0.0;
+  }
+  relax(sheet, options.relaxation, progress, solver);
+  for (std::size_t i = 0; i < tears.size(); ++i)
+    if (tears[i].kind == TearKind::Release) add_release_mouths(sheet, tears[i].side, outcomes[i]);
 }
 
 void add_cut_mouths(const Sheet& sheet, const Cut& cut, TearOutcome& outcome) {
@@ -131,9 +141,17 @@ Vec2 tear_direction(const Sheet& sheet, int vertex, const TearOptions& options) 
   return direction;
 }
 
+std::vector<TearOutcome> propagate_tears(Sheet& sheet, const std::vector<Tear>& tears, const TearOptions& options,
+                                         Progress* progress, SparseSolver* solver) {
+  std::vector<TearOutcome> outcomes(tears.size());
+  release_sides(sheet, tears, options, progress, solver, outcomes);
+  for (std::size_t i = 0; i < tears.size(); ++i)
+    if (tears[i].kind == TearKind::Edge) outcomes[i] = tear_edge(sheet, tears[i], options, progress);
+  return outcomes;
+}
+
 TearOutcome propagate_tear(Sheet& sheet, const Tear& tear, const TearOptions& options, Progress* progress) {
-  return tear.kind == TearKind::Release ? release_side(sheet, tear.side, options, progress)
-                                        : tear_edge(sheet, tear, options, progress);
+  return propagate_tears(sheet, {tear}, options, progress).front();
 }
 
 }  // namespace toile

@@ -22,6 +22,7 @@ struct Reading {
   bool inserts = true;
   int panel = 0;
   Tear tear;
+  int job = -1;
   OperationKind kind = OperationKind::TakeIn;
   FabricNeed fabric = FabricNeed::None;
   TicketAllowance allowance;
@@ -30,39 +31,16 @@ struct Reading {
   std::string where, mirror_name;
 };
 
-double available_allowance(const Pattern& pattern, const Sheet& sheet, int side) {
-  double least = std::numeric_limits<double>::infinity();
-  const Panel& panel = pattern.panels[static_cast<std::size_t>(sheet.panel)];
-  for (const int number : sheet.sides[static_cast<std::size_t>(side)].edges) {
-    const PanelEdge& edge = panel.edges[static_cast<std::size_t>(number)];
-    const double own = edge.hem ? *edge.hem : edge.seam_allowance.value_or(pattern.seam_allowance);
-    least = std::min(least, edge.on_fold ? 0.0 : own);
-  }
-  return std::isfinite(least) ? least : 0.0;
-}
-
-bool is_dart_leg(const Pattern& pattern, const Sheet& sheet, int side) {
-  for (const int edge : sheet.sides[static_cast<std::size_t>(side)].edges)
-    for (const Seam& seam : pattern.seams)
-      if (seam.a.panel == seam.b.panel && seam.a.panel.value == sheet.panel &&
-          (seam.a.edge == edge || seam.b.edge == edge))
-        return true;
-  return false;
-}
-
 // Whether a side faces up or down along the grain, so that moving it changes a length and not a girth.
 bool faces_along_grain(const Sheet& sheet, int side) {
   const SideCurve& curve = sheet.cloth_sides[static_cast<std::size_t>(side)];
   return std::abs(curve.closest(curve.point(0.5 * curve.length())).normal.y()) > 0.7;
 }
 
-OperationKind released_kind(const Pattern& pattern, const Sheet& sheet, const Reading& reading) {
+OperationKind released_kind(const Sheet& sheet, const Reading& reading) {
   const bool sewn = sheet.sides[static_cast<std::size_t>(reading.tear.side)].sewn;
   const bool length = !sewn && faces_along_grain(sheet, reading.tear.side);
-  if (!reading.inserts) {
-    if (is_dart_leg(pattern, sheet, reading.tear.side)) return OperationKind::DartDeepen;
-    return length ? OperationKind::Shorten : OperationKind::TakeIn;
-  }
+  if (!reading.inserts) return length ? OperationKind::Shorten : OperationKind::TakeIn;
   if (length) return OperationKind::Lengthen;
   return reading.fabric == FabricNeed::WithinAllowance ? OperationKind::LetOut : OperationKind::InsertStrip;
 }
@@ -83,7 +61,8 @@ void read_allowance(const Pattern& pattern, const Sheet& sheet, const AlterPatte
   if (!reading.inserts) return;
   reading.fabric = FabricNeed::NeedsFabric;
   if (reading.tear.kind != TearKind::Release) return;
-  reading.allowance.available = available_allowance(pattern, sheet, reading.tear.side);
+  reading.allowance.available =
+      allowance_of(pattern, sheet.panel, sheet.sides[static_cast<std::size_t>(reading.tear.side)]);
   reading.allowance.needed = reading.profile.largest;
   reading.allowance.left = reading.allowance.available - reading.allowance.needed;
   if (reading.allowance.left >= options.least_allowance_left) reading.fabric = FabricNeed::WithinAllowance;
@@ -98,7 +77,7 @@ Reading read_tear(const Pattern& pattern, const Sheet& sheet, const Tear& tear, 
   const bool release = tear.kind == TearKind::Release;
   reading.profile = release ? side_profile(sheet, tear.side) : cut_profile(sheet, sheet.cuts[cut]);
   read_allowance(pattern, sheet, options, reading);
-  reading.kind = release ? released_kind(pattern, sheet, reading) : cut_kind(sheet, reading);
+  reading.kind = release ? released_kind(sheet, reading) : cut_kind(sheet, reading);
   const std::string side = side_words(pattern, sheet, tear.side);
   reading.where =
       release ? side : "from the " + side + " into " + pattern.panels[static_cast<std::size_t>(sheet.panel)].name;
@@ -122,33 +101,24 @@ std::vector<Reading> read_pass(const Pattern& pattern, const TornPattern& torn, 
   std::vector<Reading> readings;
   for (std::size_t p = 0; p < torn.sheets.size(); ++p) {
     std::size_t cut = 0;  // cuts stand in the sheet in the order of its edge tears
-    for (const MadeTear& made : torn.panels[p].tears) {
-      const std::size_t own = made.tear.kind == TearKind::Edge ? cut++ : 0;
-      Reading reading = read_tear(pattern, torn.sheets[p], made.tear, own, inserts, options);
+    const std::vector<MadeTear>& tears = torn.panels[p].tears;
+    for (std::size_t i = 0; i < tears.size(); ++i) {
+      const std::size_t own = tears[i].tear.kind == TearKind::Edge ? cut++ : 0;
+      Reading reading = read_tear(pattern, torn.sheets[p], tears[i].tear, own, inserts, options);
+      reading.job = torn.jobs[p][i];
       if (reading.profile.largest > 0.0) readings.push_back(std::move(reading));
     }
   }
   return readings;
 }
 
-bool plies_of_one_seam(const Pattern& pattern, const Sheet& a, int side_a, const Sheet& b, int side_b) {
-  for (const int i : a.sides[static_cast<std::size_t>(side_a)].edges)
-    for (const int j : b.sides[static_cast<std::size_t>(side_b)].edges)
-      for (const Seam& seam : pattern.seams) {
-        const SeamSide x{PanelId(a.panel), i}, y{PanelId(b.panel), j};
-        if ((seam.a == x && seam.b == y) || (seam.a == y && seam.b == x)) return true;
-      }
-  return false;
-}
-
 // Whether two readings are one job for the person who sews.
-bool belong_together(const Pattern& pattern, const TornPattern& torn,
-                     const std::vector<std::vector<SeamPartner>>& partners, const Reading& a, const Reading& b) {
-  if (a.inserts != b.inserts || a.kind != b.kind || a.tear.kind != b.tear.kind) return false;
-  const Sheet &sheet_a = torn.sheets[static_cast<std::size_t>(a.panel)],
-              &sheet_b = torn.sheets[static_cast<std::size_t>(b.panel)];
-  if (a.tear.kind == TearKind::Release && plies_of_one_seam(pattern, sheet_a, a.tear.side, sheet_b, b.tear.side))
-    return true;
+bool belong_together(const TornPattern& torn, const std::vector<std::vector<SeamPartner>>& partners, const Reading& a,
+                     const Reading& b) {
+  if (a.inserts != b.inserts) return false;
+  if (a.job == b.job) return true;
+  if (a.kind != b.kind || a.tear.kind != TearKind::Edge || b.tear.kind != TearKind::Edge) return false;
+  const Sheet& sheet_b = torn.sheets[static_cast<std::size_t>(b.panel)];
   const double larger = std::max(a.profile.largest, b.profile.largest);
   if (a.panel != b.panel && a.mirror_name == b.mirror_name &&
       std::abs(a.profile.largest - b.profile.largest) < kEqualAmount * larger)
@@ -264,21 +234,39 @@ TicketPiece piece_of(const Pattern& pattern, const AlteredRegion& region) {
   return piece;
 }
 
-// Gives the regions that a tear opened to its operation; the first operation that opened a region has it.
-void claim_regions(const Pattern& pattern, const Reading& reading, int number, TicketOperation& operation,
-                   PanelAlteration& panel) {
-  for (AlteredRegion& region : reading.inserts ? panel.insertions : panel.removals) {
-    if (region.operation >= 0) continue;
-    const TearProfile& profile = reading.profile;
-    const bool opened = std::any_of(profile.middle.begin(), profile.middle.end(),
-                                    [&](const Vec2& p) { return inside(region.shape, p); });
-    if (!opened) continue;
-    region.operation = number;
-    if (!reading.inserts)
-      operation.removed_area += region.area;
-    else if (operation.fabric == FabricNeed::NeedsFabric)
-      operation.pieces.push_back(piece_of(pattern, region));
-  }
+struct Job {
+  std::vector<Reading> members;
+  TicketOperation operation;
+};
+
+// The job that opened a region: the one whose tears lie in it along most of their way. -1: none.
+int opener_of(const PolygonWithHoles& region, std::size_t panel, bool inserts, const std::vector<Job>& jobs) {
+  int opener = -1;
+  std::ptrdiff_t most = 0;
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    for (const Reading& reading : jobs[j].members) {
+      if (reading.inserts != inserts || reading.panel != static_cast<int>(panel)) continue;
+      const auto within = std::count_if(reading.profile.middle.begin(), reading.profile.middle.end(),
+                                        [&](const Vec2& p) { return inside(region, p); });
+      if (within <= most) continue;
+      most = within;
+      opener = static_cast<int>(j);
+    }
+  return opener;
+}
+
+void share_out_regions(const Pattern& pattern, std::vector<Job>& jobs, std::vector<PanelAlteration>& panels) {
+  for (std::size_t p = 0; p < panels.size(); ++p)
+    for (const bool inserts : {true, false})
+      for (AlteredRegion& region : inserts ? panels[p].insertions : panels[p].removals) {
+        region.operation = opener_of(region.shape, p, inserts, jobs);
+        if (region.operation < 0) continue;
+        TicketOperation& operation = jobs[static_cast<std::size_t>(region.operation)].operation;
+        if (!inserts)
+          operation.removed_area += region.area;
+        else if (operation.fabric == FabricNeed::NeedsFabric)
+          operation.pieces.push_back(piece_of(pattern, region));
+      }
 }
 
 int work_order(OperationKind kind) {  // darts, then widths, then hems
@@ -291,20 +279,13 @@ int work_order(OperationKind kind) {  // darts, then widths, then hems
 void read_operations(const Pattern& pattern, const PatternMesh& mesh, const TornPattern& inserting,
                      const TornPattern& removing, const AlterPatternOptions& options, AlterPatternResult& result) {
   const auto partners = find_seam_partners(mesh);
-  struct Job {
-    const TornPattern* torn;
-    std::vector<Reading> members;
-    TicketOperation operation;
-  };
   std::vector<Job> jobs;
   for (const bool inserts : {true, false}) {
     const TornPattern& torn = inserts ? inserting : removing;
     const std::vector<Reading> readings = read_pass(pattern, torn, inserts, options);
-    const auto together = [&](const Reading& a, const Reading& b) {
-      return belong_together(pattern, torn, partners, a, b);
-    };
+    const auto together = [&](const Reading& a, const Reading& b) { return belong_together(torn, partners, a, b); };
     for (const auto& members : group(readings, together)) {
-      Job job{&torn, {}, describe(pattern, torn, readings, members, options)};
+      Job job{{}, describe(pattern, torn, readings, members, options)};
       for (const std::size_t i : members) job.members.push_back(readings[i]);
       jobs.push_back(std::move(job));
     }
@@ -312,10 +293,8 @@ void read_operations(const Pattern& pattern, const PatternMesh& mesh, const Torn
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
     return work_order(a.operation.kind) < work_order(b.operation.kind);
   });
+  share_out_regions(pattern, jobs, result.panels);
   for (Job& job : jobs) {
-    const int number = static_cast<int>(result.ticket.operations.size());
-    for (const Reading& reading : job.members)
-      claim_regions(pattern, reading, number, job.operation, result.panels[static_cast<std::size_t>(reading.panel)]);
     job.operation.sentence = operation_sentence(job.operation);
     result.ticket.operations.push_back(std::move(job.operation));
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/alter/propagate_tear.h"
 #include "engine/geometry/split_polygon.h"
 
 namespace toile {
@@ -101,6 +102,47 @@ bool worth_sewing(const PolygonWithHoles& opening, const RecutOptions& options) 
   return size >= options.least_area && 2.0 * size / perimeter(opening.outline) >= options.least_width;
 }
 
+// Whether a side is let go by less than a strip that can be sewn, and by more than its turned-in cloth gives.
+bool too_narrow(const Sheet& sheet, int side, const RecutOptions& options) {
+  double largest = 0.0;
+  for (int v = 0; v < sheet.vertex_count(); ++v) {
+    const SheetAnchor* anchor = sheet.vertices[static_cast<std::size_t>(v)].anchor(side);
+    if (anchor && !anchor->attached) largest = std::max(largest, gap_to_side(sheet, v, side));
+  }
+  return largest > std::max(0.0, options.side_room[static_cast<std::size_t>(side)]) && largest < options.least_strip;
+}
+
+// What lies within `depth` of a wanted side, in pieces.
+Loops band_along(const SideCurve& side, double depth) {
+  Loops band;
+  for (std::size_t i = 1; i < side.points().size(); ++i) {
+    const Vec2 &a = side.points()[i - 1], &b = side.points()[i];
+    band.push_back({a, b, b - depth * side.normals()[i], a - depth * side.normals()[i - 1]});
+  }
+  return band;
+}
+
+double sum_of_areas(const std::vector<std::vector<Vec2>>& outlines) {
+  double sum = 0.0;
+  for (const auto& outline : outlines) sum += std::abs(signed_area(outline));
+  return sum;
+}
+
+void cut_back_narrow_sides(const Sheet& sheet, const RecutOptions& options, RecutPanel& panel) {
+  Loops bands;
+  for (int side = 0; side < static_cast<int>(options.side_room.size()); ++side)
+    if (too_narrow(sheet, side, options))
+      for (auto& part : band_along(sheet.wanted_sides[static_cast<std::size_t>(side)], options.least_strip))
+        bands.push_back(std::move(part));
+  if (bands.empty()) return;
+  panel.cut_back = sum_of_areas(panel.kept);
+  std::vector<std::vector<Vec2>> kept;
+  for (const auto& outline : panel.kept)
+    for (PolygonWithHoles& part : polygon_difference({outline}, bands)) kept.push_back(std::move(part.outline));
+  panel.kept = std::move(kept);
+  panel.cut_back -= sum_of_areas(panel.kept);
+}
+
 }  // namespace
 
 RecutPanel recut(const Sheet& sheet, const RecutOptions& options) {
@@ -114,6 +156,7 @@ RecutPanel recut(const Sheet& sheet, const RecutOptions& options) {
                                           [](const SheetAnchor& a) { return a.side < 0 || a.attached; });
                      });
   if (whole) return result;
+  cut_back_narrow_sides(sheet, options, result);
   for (PolygonWithHoles& opening : polygon_difference({result.wanted}, result.kept)) {
     if (!worth_sewing(opening, options)) {
       ++result.dropped;

@@ -10,9 +10,12 @@
 namespace toile {
 
 struct RecutOptions {
-  bool l_shapes = false;       // leave L- and T-shaped openings in one piece; else they become strips
-  double least_area = 2e-4;    // m^2: smaller openings are eased in instead of cut                [method, Sec. 5]
-  double least_width = 0.004;  // m, mean: narrower ones too
+  bool l_shapes = false;          // leave L- and T-shaped openings in one piece; else they become strips
+  double least_area = 2e-4;       // m^2: smaller openings are eased in instead of cut                [method, Sec. 5]
+  double least_width = 0.004;     // m, mean: narrower ones too
+  double least_strip = 0.0;       // m: where a side is let go by less than this and by more than ...
+  std::vector<double> side_room;  // ... its turned-in cloth gives (m, per side), the cloth is cut back to make room for
+                                  // a strip that can be sewn; empty: never
 };
 
 struct RecutPanel {
@@ -20,7 +23,8 @@ struct RecutPanel {
   std::vector<std::vector<Vec2>> kept;     // outlines of the cloth where the wanted panel has it
   std::vector<PolygonWithHoles> openings;  // wanted minus kept, true to scale in the wanted panel
   double wanted_area = 0.0, opening_area = 0.0;
-  int dropped = 0;  // openings too small to sew
+  double cut_back = 0.0;  // m^2, of cloth that gives way to strips of the least width
+  int dropped = 0;        // openings too small to sew
 };
 
 RecutPanel recut(const Sheet& sheet, const RecutOptions& options = {});

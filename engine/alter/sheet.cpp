@@ -56,11 +56,11 @@ int side_of_edge(const Sheet& sheet, int from, int to) {
 }  // namespace
 
 Sheet make_sheet(const Pattern& pattern, const PatternMesh& mesh, const Points2& cloth, const Points2& wanted,
-                 int panel) {
+                 int panel, const Sheet* like) {
   Sheet sheet;
   sheet.panel = panel;
-  sheet.wedges = find_dart_wedges(pattern, mesh, panel);
-  sheet.sides = find_panel_sides(pattern, mesh, panel, sheet.wedges);
+  sheet.wedges = like ? same_wedges(like->wedges, mesh, panel) : find_dart_wedges(pattern, mesh, panel);
+  sheet.sides = like ? same_sides(like->sides, mesh, panel) : find_panel_sides(pattern, mesh, panel, sheet.wedges);
   for (const PanelSide& side : sheet.sides) {
     sheet.cloth_sides.emplace_back(points_of(side.vertices, cloth));
     sheet.wanted_sides.emplace_back(points_of(side.vertices, wanted));

@@ -56,9 +56,9 @@ struct Sheet {
 };
 
 // The cloth of `panel` with flat positions `cloth`, on its way to `wanted` (both #V x 2 of the pattern mesh), laid out
-// by the plain map and attached all round.
+// by the plain map and attached all round. `like`: the panel's sheet on another mesh, whose sides this one shall have.
 Sheet make_sheet(const Pattern& pattern, const PatternMesh& mesh, const Points2& cloth, const Points2& wanted,
-                 int panel);
+                 int panel, const Sheet* like = nullptr);
 
 // Directed border edges (cloth on the left), each with the side it lies on, or -1 for the lip of a cut.
 struct BorderEdge {

@@ -26,7 +26,8 @@ class SideCurve {
   Vec2 point(double at) const;  // clamped to the side
   double length() const { return at_.back(); }
   const std::vector<Vec2>& points() const { return points_; }
-  const std::vector<double>& at() const { return at_; }  // arc length of every point
+  const std::vector<Vec2>& normals() const { return normals_; }  // per point, as of SideFoot
+  const std::vector<double>& at() const { return at_; }          // arc length of every point
 
  private:
   std::vector<Vec2> points_;

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "engine/core/units.h"
-#include "engine/numerics/sparse_solver.h"
 
 namespace toile {
 namespace {
@@ -14,6 +13,7 @@ namespace {
 constexpr double kAttachment = 1e3;                // weight of sliding sides, relative to the membrane
 constexpr double kProximal = 1e-6;                 // of the diagonal: holds cloth that nothing else holds
 constexpr double kShear = 5.0 * kRadianPerDegree;  // kept pieces are isometric only if shear is held too
+const double kSineOfShear = std::sin(kShear);
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
 Mat2 edges_to(const Sheet& sheet, const std::array<int, 3>& face, Vec2 SheetVertex::*where) {
@@ -36,13 +36,20 @@ Mat2 fibre_projection(const Mat2& gradient, const Vec2& length) {
   if (u.norm() < 1e-9) u = Vec2(v.y(), -v.x());
   if (v.norm() < 1e-9) v = Vec2(-u.y(), u.x());
   if (u.norm() < 1e-9) return Mat2(length.asDiagonal());
-  const double angle = std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v));
-  const double allowed = std::clamp(angle, kQuarter - kShear, kQuarter + kShear);
+  u.normalize();
+  v.normalize();
   Mat2 shape;
-  shape.col(0) = turned(u.normalized(), 0.5 * (angle - allowed)) * length[0];
-  shape.col(1) = turned(v.normalized(), 0.5 * (allowed - angle)) * length[1];
+  shape.col(0) = u * length[0];
+  shape.col(1) = v * length[1];
+  const double across = u.x() * v.y() - u.y() * v.x(), along = u.dot(v);
+  if (across <= 0.0 || std::abs(along) > kSineOfShear) {  // beyond the shear limit: both fibres turn back half each
+    const double angle = std::atan2(across, along);
+    const double back = 0.5 * (angle - std::clamp(angle, kQuarter - kShear, kQuarter + kShear));
+    shape.col(0) = turned(shape.col(0), back);
+    shape.col(1) = turned(shape.col(1), -back);
+  }
   const Mat2 moment = gradient * shape.transpose();
-  const double c = moment.trace(), s = moment(1, 0) - moment(0, 1), norm = std::hypot(c, s);
+  const double c = moment.trace(), s = moment(1, 0) - moment(0, 1), norm = std::sqrt(c * c + s * s);
   if (norm < 1e-12) return shape;
   return (Mat2() << c, -s, s, c).finished() / norm * shape;
 }
@@ -55,17 +62,19 @@ Vec2 wanted_lengths(const Mat2& guide, bool folded) {
 
 class Relaxation {
  public:
-  explicit Relaxation(Sheet& sheet) : sheet_(sheet) {
+  Relaxation(Sheet& sheet, double hold, SparseSolver& solver) : sheet_(sheet), solver_(solver) {
     const std::size_t count = sheet.faces.size();
     inverse_.resize(count);
     area_.resize(count);
     length_.resize(count);
+    hold_.assign(sheet.vertices.size(), 0.0);
     for (std::size_t f = 0; f < count; ++f) {
       const Mat2 flat = edges_to(sheet, sheet.faces[f], &SheetVertex::flat);
       inverse_[f] = flat.inverse();
       area_[f] = 0.5 * flat.determinant();
       const Mat2 guide = edges_to(sheet, sheet.faces[f], &SheetVertex::guide) * inverse_[f];
       length_[f] = wanted_lengths(guide, sheet.folded[f]);
+      for (const int v : sheet.faces[f]) hold_[static_cast<std::size_t>(v)] += hold * area_[f] / 3.0;
     }
     add_membrane();
   }
@@ -87,13 +96,14 @@ class Relaxation {
   std::vector<Eigen::Triplet<double>> entries_;
   std::size_t membrane_entries_ = 0;
   double proximal_ = 0.0;
+  std::vector<double> hold_;  // per vertex
   struct Pull {
     int vertex;
     Vec2 normal;
     double offset;  // n.c
   };
   std::vector<Pull> pulls_;
-  SparseSolver solver_;
+  SparseSolver& solver_;
   Eigen::MatrixXd right_, solution_;
 };
 
@@ -113,7 +123,7 @@ void Relaxation::add_membrane() {
               2 * sheet_.faces[f][static_cast<std::size_t>(j)] + k, local(i, j));
   }
   proximal_ = kProximal * diagonal / std::max(1, sheet_.vertex_count());
-  for (int i = 0; i < 2 * sheet_.vertex_count(); ++i) add(i, i, proximal_);
+  for (int i = 0; i < 2 * sheet_.vertex_count(); ++i) add(i, i, proximal_ + hold_[static_cast<std::size_t>(i / 2)]);
   membrane_entries_ = entries_.size();
 }
 
@@ -158,8 +168,11 @@ double Relaxation::sweep() {
   }
   for (const Pull& pull : pulls_)
     for (int k = 0; k < 2; ++k) right_(2 * pull.vertex + k) += kAttachment * pull.normal[k] * pull.offset;
-  for (int v = 0; v < sheet_.vertex_count(); ++v)
-    for (int k = 0; k < 2; ++k) right_(2 * v + k) += proximal_ * sheet_.vertices[static_cast<std::size_t>(v)].now[k];
+  for (int v = 0; v < sheet_.vertex_count(); ++v) {
+    const SheetVertex& vertex = sheet_.vertices[static_cast<std::size_t>(v)];
+    const Vec2 pull = proximal_ * vertex.now + hold_[static_cast<std::size_t>(v)] * vertex.guide;
+    for (int k = 0; k < 2; ++k) right_(2 * v + k) += pull[k];
+  }
   solution_.resize(right_.rows(), 1);
   solver_.solve_into(right_, solution_);
   for (int v = 0; v < sheet_.vertex_count(); ++v)
@@ -179,9 +192,10 @@ Mat2 guide_gradient(const Sheet& sheet, std::size_t face) {
          edges_to(sheet, sheet.faces[face], &SheetVertex::flat).inverse();
 }
 
-void relax(Sheet& sheet, const RelaxOptions& options, Progress* progress) {
+void relax(Sheet& sheet, const RelaxOptions& options, Progress* progress, SparseSolver* solver) {
   if (sheet.faces.empty()) return;
-  Relaxation relaxation(sheet);
+  SparseSolver own;
+  Relaxation relaxation(sheet, options.hold, solver ? *solver : own);
   const double floor = options.energy_floor * measure_stress(sheet, 0.0).area;
   double before = std::numeric_limits<double>::infinity();
   for (int renewal = 0; renewal < options.max_renewals; ++renewal) {
@@ -208,13 +222,16 @@ SheetStress measure_stress(const Sheet& sheet, double limit) {
     tension.emplace_back(now.colwise().norm().maxCoeff() - 1.0, area);
   }
   std::sort(tension.begin(), tension.end());
-  double below = 0.0;
-  for (const auto& [value, area] : tension) {
-    below += area;
+  const auto percentile = [&](double share) {
+    double below = 0.0;
+    for (const auto& [value, area] : tension)
+      if ((below += area) >= share * stress.area) return value;
+    return 0.0;
+  };
+  stress.p95 = percentile(0.95);
+  stress.p98 = percentile(0.98);
+  for (const auto& [value, area] : tension)
     if (value > limit) stress.over += area;
-    stress.p98 = value;
-    if (below >= 0.98 * stress.area) break;
-  }
   if (stress.area > 0.0) stress.over /= stress.area;
   return stress;
 }

@@ -2,16 +2,18 @@
 // Stretch one panel's cloth onto another outline and let it relax.
 //
 // Unknown: where every vertex of the sheet is.  Minimise
-//   sum_f A_f |G_f - P_f|^2  +  1e3 sum_attached (n.(x - c))^2  +  1e-6 diag |x - x_before|^2
+//   sum_f A_f |G_f - P_f|^2  +  1e3 sum_attached (n.(x - c))^2  +  h sum_v A_v |x - g|^2  +  1e-6 diag |x - x_before|^2
 // with P_f the nearest gradient whose fibres have length l* = min(1, that of the plain map) at 90 +- 5 degrees, and (c,
-// n) foot and normal on the wanted side, on which attached vertices slide.  l* < 1: cloth that must shrink here is the
-// business of the pass with the roles swapped, not stress.
+// n) foot and normal on the wanted side, on which attached vertices slide, and g the place in the plain map, which
+// keeps cloth that hangs on no side, or could slide along one, from drifting off.  l* < 1: cloth that must shrink here
+// is the business of the pass with the roles swapped, not stress.
 //   local step: P_f      global step: a prefactored solve; (c, n) renewed every few sweeps
 // Source: [Eggler2024, Sec. 6]; energy and weights method.md section 5.  Lengths in metres.
 #pragma once
 
 #include "engine/alter/sheet.h"
 #include "engine/core/progress.h"
+#include "engine/numerics/sparse_solver.h"
 
 namespace toile {
 
@@ -19,18 +21,22 @@ struct RelaxOptions {
   int max_renewals = 12;       // of foot points and normals, each with its factorisation, >= 1
   int sweeps = 6;              // between renewals, >= 1                                       [method, Sec. 5]
   double energy_drop = 1e-4;   // end when a renewal changes the energy by less; relative to the energy, > 0
+  double hold = 0.01;          // h, 1/m^2: bends strain by about h times a panel's width times its way, >= 0
   double energy_floor = 1e-9;  // energy per area below which nothing is left to relax, dimensionless
 };
 
 struct SheetStress {
   double energy = 0.0;  // sum A |G - P|^2, m^2
-  double p98 = 0.0;     // of max(|Gu|, |Gv|) - 1, area weighted over interior and border: tension only
+  double p95 = 0.0;     // of max(|Gu|, |Gv|) - 1, area weighted over interior and border: tension only
+  double p98 = 0.0;     // ... which near the tips of tears and darts, where strain is singular, tells more of the mesh
   double area = 0.0;    // of the cloth, m^2
   double over = 0.0;    // share of the area above `limit`
 };
 
-// Moves sheet.now to (near) the minimum; the cloth's present place is the start.
-void relax(Sheet& sheet, const RelaxOptions& options = {}, Progress* progress = nullptr);
+// Moves sheet.now to (near) the minimum; the cloth's present place is the start. `solver`: may be shared by relaxations
+// of one sheet and its copies, whose equations have one pattern.
+void relax(Sheet& sheet, const RelaxOptions& options = {}, Progress* progress = nullptr,
+           SparseSolver* solver = nullptr);
 
 // What is left in the cloth where it is.
 SheetStress measure_stress(const Sheet& sheet, double limit);

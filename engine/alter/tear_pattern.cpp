@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "engine/alter/choose_sets.h"
+#include "engine/alter/tear_in_rounds.h"
+
 namespace toile {
 namespace {
 
@@ -10,202 +13,235 @@ namespace {
 // to gain: a panel that stopped so near is done.
 constexpr double kNearEnough = 1.25;
 
-class Tearing {
+std::vector<Sheet> make_sheets(const Pattern& pattern, const Stretching& maps,
+                               const std::vector<Sheet>* like = nullptr) {
+  std::vector<Sheet> sheets;
+  for (int p = 0; p < static_cast<int>(pattern.panels.size()); ++p)
+    sheets.push_back(make_sheet(pattern, maps.mesh, maps.cloth, maps.wanted, p,
+                                like ? &(*like)[static_cast<std::size_t>(p)] : nullptr));
+  return sheets;
+}
+
+// Decides on a coarse mesh which tears every panel gets.
+class Planning {
  public:
-  Tearing(const Pattern& pattern, const PatternMesh& mesh, const Points2& cloth, const Points2& wanted,
-          const TearPatternOptions& options, Progress* progress)
-      : options_(options), progress_(progress), partners_(find_seam_partners(mesh)) {
-    for (int p = 0; p < static_cast<int>(pattern.panels.size()); ++p) {
-      first_.push_back(make_sheet(pattern, mesh, cloth, wanted, p));
-      const std::size_t sides = first_.back().sides.size();
-      done_.push_back({std::vector<bool>(sides, false), std::vector<int>(sides, 0), {}});
-      locked_.push_back(pattern.panels[static_cast<std::size_t>(p)].locked);
-    }
-    trials_.resize(first_.size());
-    fresh_.assign(first_.size(), false);
-    result_.panels.resize(first_.size());
+  Planning(const Pattern& pattern, const PatternMesh& mesh, std::vector<Sheet> sheets,
+           const TearPatternOptions& options, Progress* progress)
+      : pattern_(pattern),
+        options_(options),
+        progress_(progress),
+        partners_(find_seam_partners(mesh)),
+        sheets_(std::move(sheets)) {
+    plan_.panels.resize(sheets_.size());
+    plan_.jobs.resize(sheets_.size());
+    twins_.resize(sheets_.size());
+    if (options.symmetric) twins_ = find_panel_twins(pattern, sheets_);
+    units_ = side_units(pattern, sheets_, partners_, twins_);
+    sets_.resize(sheets_.size());
   }
 
-  TornPattern run();
+  // Panels with their stress before and their tears; the sheets are the stretched, untorn ones.
+  TornPattern run() {
+    stretch();
+    search_sides();
+    search_cuts();
+    if (std::any_of(sets_.begin(), sets_.end(), [](const auto& sets) { return sets.size() > 1; })) choose();
+    plan_.sheets = std::move(sheets_);
+    return std::move(plan_);
+  }
 
  private:
   double limit() const { return options_.candidates.stretch_limit; }
-  void stretch_all();
-  bool active(std::size_t p) const { return !locked_[p] && result_.panels[p].after.p98 >= limit(); }
-  void try_panel(std::size_t p);
-  void try_partners();
-  void try_partner(const PartnerPlace& partner);
-  bool round();
-  void adopt(const TearCandidate& candidate, int round);
-  void undo_redundant(std::size_t p);
-  bool replay(std::size_t p, std::size_t without, Sheet& sheet);
-  void conclude();
+  bool locked(std::size_t p) const { return pattern_.panels[p].locked; }
+  bool chooses(std::size_t p) const { return units_.chooser[p] == static_cast<int>(p); }
 
+  void stretch();
+  void search_sides();
+  void search_panel(std::size_t p, int first_unit);
+  void search_cuts();
+  void choose();
+  void take_set(std::size_t p, const TearSet& set);
+  double release_of(std::size_t p, std::vector<int> units, int last) const;
+
+  const Pattern& pattern_;
   const TearPatternOptions& options_;
   Progress* progress_;
   std::vector<std::vector<SeamPartner>> partners_;
-  std::vector<Sheet> first_;  // stretched, not torn
-  std::vector<PanelTears> done_;
-  std::vector<bool> locked_;
-  std::vector<std::vector<TearCandidate>> trials_;  // per panel, valid until it is torn
-  std::vector<bool> fresh_;
-  TornPattern result_;
+  std::vector<Sheet> sheets_;
+  std::vector<std::optional<PanelTwin>> twins_;
+  TearUnits units_;
+  std::vector<std::vector<TearSet>> sets_;  // per panel that chooses
+  TornPattern plan_;
 };
 
-void Tearing::stretch_all() {
-  for (std::size_t p = 0; p < first_.size(); ++p) {
-    PanelTearing& panel = result_.panels[p];
-    panel.before = measure_stress(first_[p], limit());
+void Planning::stretch() {
+  for (std::size_t p = 0; p < sheets_.size(); ++p) {
+    SheetStress& before = plan_.panels[p].before;
+    before = measure_stress(sheets_[p], limit());
     // The plain map is the start; where it has no tension it stays, and there is nothing to relax.
-    if (!locked_[p] && panel.before.p98 >= limit()) {
-      relax(first_[p], options_.candidates.tear.relaxation, progress_);
-      panel.before = measure_stress(first_[p], limit());
-    }
-    panel.after = panel.before;
-  }
-  result_.sheets = first_;
-}
-
-void Tearing::try_panel(std::size_t p) {
-  if (fresh_[p]) return;
-  trials_[p].clear();
-  fresh_[p] = true;
-  const Sheet& sheet = result_.sheets[p];
-  for (const Tear& tear :
-       possible_tears(sheet, done_[p].edge_tears, options_.choice.max_tears_per_side, options_.candidates)) {
-    trials_[p].push_back(try_tear(sheet, tear, result_.panels[p].after, result_.panels[p].before.energy,
-                                  options_.candidates, progress_));
-    ++result_.trials;
+    if (locked(p) || share_of_limit(before, limit()) < 1.0) continue;
+    relax(sheets_[p], options_.candidates.tear.relaxation, progress_);
+    before = measure_stress(sheets_[p], limit());
   }
 }
 
-// What the other ply would have to do where a candidate opens a seam, if nothing there does it yet.
-void Tearing::try_partners() {
-  for (std::size_t p = 0; p < trials_.size(); ++p) {
-    if (!active(p)) continue;
-    const std::vector<TearCandidate> candidates = trials_[p];
-    for (const TearCandidate& candidate : candidates) {
-      if (!candidate.refused.empty()) continue;
-      for (const TearMouth& mouth : candidate.outcome.mouths)
-        for (const PartnerPlace& partner : partner_places(result_.sheets, partners_, static_cast<int>(p), mouth))
-          try_partner(partner);
-    }
+void Planning::search_panel(std::size_t p, int first_unit) {
+  SearchTearsOptions search;
+  search.stretch_limit = limit();
+  search.least_strip = options_.candidates.least_strip;
+  search.tear = options_.candidates.tear;
+  search.tear.relaxation.max_renewals = 6;  // to compare sets, not to cut
+  search.tear.relaxation.energy_drop = 1e-3;
+  search.removing = options_.removing;
+  for (const KeepOut& keep : pattern_.panels[p].keep_outs) search.keep_outs.push_back(keep.polygon);
+  search_tears(sheets_[p], units_.of_panel[p], first_unit, search, sets_[p], plan_.trials, progress_);
+}
+
+void Planning::search_sides() {
+  for (std::size_t p = 0; p < sheets_.size(); ++p) {
+    if (!chooses(p)) continue;
+    if (locked(p)) units_.of_panel[p].clear();
+    search_panel(p, 0);
   }
 }
 
-void Tearing::try_partner(const PartnerPlace& partner) {
-  const auto p = static_cast<std::size_t>(partner.panel);
-  const Sheet& sheet = result_.sheets[p];
-  if (locked_[p] || opens_at(sheet, done_[p].mouths, partner.places)) return;
-  for (const TearCandidate& known : trials_[p])
-    if (known.refused.empty() && opens_at(sheet, known.outcome.mouths, partner.places)) return;
-  const auto add = [&](const Tear& tear) {
-    const bool tried = std::any_of(trials_[p].begin(), trials_[p].end(), [&](const TearCandidate& known) {
-      return known.tear.kind == tear.kind && known.tear.side == tear.side &&
-             std::abs(known.tear.at - tear.at) < sheet.edge_length;
+// Cuts are looked for only where sides alone leave too much, or many of them are needed.
+void Planning::search_cuts() {
+  std::vector<int> wanting;
+  for (std::size_t p = 0; p < sheets_.size(); ++p) {
+    if (!chooses(p) || locked(p)) continue;
+    const bool easy = std::any_of(sets_[p].begin(), sets_[p].end(), [&](const TearSet& set) {
+      return set.units.size() <= 2 && share_of_limit(set.stress, limit()) < kNearEnough;
     });
-    if (tried) return;
-    trials_[p].push_back(try_tear(sheet, tear, result_.panels[p].after, result_.panels[p].before.energy,
-                                  options_.candidates, progress_));
-    ++result_.trials;
+    if (!easy) wanting.push_back(static_cast<int>(p));
+  }
+  if (wanting.empty() || options_.choice.max_tears_per_side == 0) return;
+  std::vector<std::size_t> known;
+  for (const auto& units : units_.of_panel) known.push_back(units.size());
+  CutUnitOptions cuts;
+  cuts.max_tears_per_side = options_.choice.max_tears_per_side;
+  cuts.seam_preference = options_.choice.seam_preference;
+  cuts.least_cut_side = options_.candidates.least_cut_side;
+  cuts.tear = options_.candidates.tear;
+  add_cut_units(pattern_, sheets_, partners_, twins_, wanting, cuts, units_);
+  for (std::size_t p = 0; p < sheets_.size(); ++p)
+    if (chooses(p) && units_.of_panel[p].size() > known[p]) search_panel(p, static_cast<int>(known[p]));
+}
+
+void Planning::choose() {
+  ChooseSetsOptions options;
+  options.stretch_limit = limit();
+  options.l_shapes = options_.choice.l_shapes;
+  const ChosenSets chosen = choose_sets(sets_, units_, sheets_, partners_, twins_, options);
+  for (std::size_t p = 0; p < sheets_.size(); ++p)
+    if (chooses(p)) take_set(p, sets_[p][chosen.set_of_panel[p]]);
+  for (const PanelTearing& panel : plan_.panels)
+    for (const MadeTear& made : panel.tears) plan_.rounds = std::max(plan_.rounds, made.round + 1);
+}
+
+// Share of the panel's first energy that `last` releases after the other units.
+double Planning::release_of(std::size_t p, std::vector<int> units, int last) const {
+  const auto energy = [&](const std::vector<int>& wanted) {
+    for (const TearSet& set : sets_[p])
+      if (set.units == wanted) return set.stress.energy;
+    return sets_[p].front().stress.energy;
   };
-  if (partner.places.size() > 1) {  // a corner: let one of its sides go
-    for (const TearMouth& place : partner.places)
-      if (!sheet.sides[static_cast<std::size_t>(place.side)].locked)
-        add({TearKind::Release, partner.panel, place.side, 0.0, Vec2::Zero()});
-    return;
-  }
-  const TearMouth& place = partner.places.front();
-  if (sheet.sides[static_cast<std::size_t>(place.side)].locked) return;
-  const int start = vertex_on_side(sheet, place.side, place.at);
-  if (start >= 0)
-    add({TearKind::Edge, partner.panel, place.side, place.at, tear_direction(sheet, start, options_.candidates.tear)});
+  std::sort(units.begin(), units.end());
+  const double after = energy(units);
+  std::erase(units, last);
+  const double first = sets_[p].front().stress.energy;
+  return first > 0.0 ? (energy(units) - after) / first : 0.0;
 }
 
-void Tearing::adopt(const TearCandidate& candidate, int round) {
-  const auto p = static_cast<std::size_t>(candidate.tear.panel);
-  const auto side = static_cast<std::size_t>(candidate.tear.side);
-  result_.sheets[p] = candidate.after;
-  result_.panels[p].after = candidate.stress;
-  result_.panels[p].tears.push_back({candidate.tear, round, candidate.weight, candidate.release,
-                                     candidate.outcome.largest_gap, candidate.release < options_.choice.least_release});
-  if (candidate.tear.kind == TearKind::Release)
-    done_[p].released[side] = true;
-  else
-    ++done_[p].edge_tears[side];
-  const auto& mouths = candidate.outcome.mouths;
-  done_[p].mouths.insert(done_[p].mouths.end(), mouths.begin(), mouths.end());
-  fresh_[p] = false;
-  trials_[p].clear();
-}
-
-bool Tearing::round() {
-  bool any = false;
-  for (std::size_t p = 0; p < first_.size(); ++p)
-    if (active(p)) {
-      try_panel(p);
-      any = true;
+void Planning::take_set(std::size_t p, const TearSet& set) {
+  // In the order of what each releases for itself, as single tears one after the other would go.
+  std::vector<int> order = set.units;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return release_of(p, {a}, a) > release_of(p, {b}, b); });
+  std::vector<int> made;
+  for (const int number : order) {
+    made.push_back(number);
+    const TearUnit& unit = units_.of_panel[p][static_cast<std::size_t>(number)];
+    const auto place =
+        static_cast<std::size_t>(std::find(set.units.begin(), set.units.end(), number) - set.units.begin());
+    MadeTear tear;
+    tear.round = static_cast<int>(made.size()) - 1;
+    tear.weight = units_.job_cost[static_cast<std::size_t>(unit.job)] + unit.burden;
+    tear.release = release_of(p, made, number);
+    tear.largest_gap = set.largest_gaps[place];
+    for (const Tear& own : unit.tears) {
+      tear.tear = own;
+      plan_.panels[p].tears.push_back(tear);
+      plan_.jobs[p].push_back(unit.job);
+      if (!twins_[p] || twins_[p]->panel == static_cast<int>(p)) continue;
+      const auto twin = static_cast<std::size_t>(twins_[p]->panel);
+      tear.tear = mirrored(own, *twins_[p], sheets_[p], sheets_[twin]);
+      plan_.panels[twin].tears.push_back(tear);
+      plan_.jobs[twin].push_back(unit.job);
     }
-  if (!any) return false;
-  if (!options_.choice.greedy) try_partners();
-  std::vector<TearCandidate> all;
-  for (const auto& trials : trials_) all.insert(all.end(), trials.begin(), trials.end());
-  const ChosenTears chosen = choose_tears(all, result_.sheets, done_, partners_, options_.choice);
-  if (chosen.candidates.empty()) return false;
-  for (const std::size_t c : chosen.candidates) adopt(all[c], result_.rounds);
-  ++result_.rounds;
-  return true;
-}
-
-// Carries out all tears of a panel but one on the untorn sheet.
-bool Tearing::replay(std::size_t p, std::size_t without, Sheet& sheet) {
-  sheet = first_[p];
-  const std::vector<MadeTear>& tears = result_.panels[p].tears;
-  for (std::size_t i = 0; i < tears.size(); ++i)
-    if (i != without && !propagate_tear(sheet, tears[i].tear, options_.candidates.tear, progress_).opened) return false;
-  return measure_stress(sheet, limit()).p98 < limit();
-}
-
-void Tearing::undo_redundant(std::size_t p) {
-  std::vector<MadeTear>& tears = result_.panels[p].tears;
-  for (std::size_t i = 0; tears.size() > 1 && i < tears.size();) {
-    Sheet sheet;
-    if (tears[i].for_partner || !replay(p, i, sheet)) {
-      ++i;
-      continue;
-    }
-    tears.erase(tears.begin() + static_cast<std::ptrdiff_t>(i));
-    result_.sheets[p] = std::move(sheet);
-    result_.panels[p].after = measure_stress(result_.sheets[p], limit());
-    ++result_.reverted;
   }
 }
 
-void Tearing::conclude() {
-  for (std::size_t p = 0; p < first_.size(); ++p) {
-    PanelTearing& panel = result_.panels[p];
-    if (panel.after.p98 < limit()) undo_redundant(p);
-    panel.done = panel.after.p98 < kNearEnough * limit();
-    if (panel.done) continue;
-    panel.reason = locked_[p] ? "the panel is locked" : "no further tear would release enough of the stretch";
-  }
+// The same place on a side of another resolution.
+Tear carried(const Tear& tear, const Sheet& from, const Sheet& to) {
+  Tear same = tear;
+  const auto side = static_cast<std::size_t>(tear.side);
+  same.at *= to.cloth_sides[side].length() / from.cloth_sides[side].length();
+  return same;
 }
 
-TornPattern Tearing::run() {
-  stretch_all();
-  for (int i = 0; i < options_.max_rounds; ++i) {
-    report(progress_, "alter", static_cast<double>(i) / options_.max_rounds);
-    if (!round()) break;
+// Carries out a panel's tears on the garment's own mesh; what does not open there is left out.
+void carry_out(Sheet& sheet, const Sheet& planned, PanelTearing& panel, std::vector<int>& jobs,
+               const TearPatternOptions& options, Progress* progress) {
+  const TearOptions& tearing = options.candidates.tear;
+  std::vector<Tear> tears;
+  for (const MadeTear& made : panel.tears) tears.push_back(carried(made.tear, planned, sheet));
+  // Cuts find their way in cloth that lies as it will be stretched.
+  if (tears.empty() || tears.back().kind == TearKind::Edge) relax(sheet, tearing.relaxation, progress);
+  // Cuts come last, and in the sheet they stand in the order of their tears.
+  const std::vector<TearOutcome> outcomes = propagate_tears(sheet, tears, tearing, progress);
+  std::vector<MadeTear> made;
+  std::vector<int> made_jobs;
+  for (std::size_t i = 0; i < tears.size(); ++i) {
+    if (!outcomes[i].opened) continue;
+    made.push_back(panel.tears[i]);
+    made.back().tear = tears[i];
+    made.back().largest_gap = outcomes[i].largest_gap;
+    made_jobs.push_back(jobs[i]);
   }
-  conclude();
-  return std::move(result_);
+  panel.tears = std::move(made);
+  jobs = std::move(made_jobs);
+}
+
+void conclude(const Sheet& sheet, bool locked, double limit, PanelTearing& panel) {
+  const bool outside = !panel.tears.empty() && farthest_outside(sheet) > kMostOutside;
+  panel.done = share_of_limit(panel.after, limit) < kNearEnough && !outside;
+  panel.reason = panel.done ? ""
+                 : locked   ? "the panel is locked"
+                 : outside  ? "kept cloth overlaps the outline"
+                            : "no further tear would release enough of the stretch";
 }
 
 }  // namespace
 
-TornPattern tear_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& cloth, const Points2& wanted,
+TornPattern tear_pattern(const Pattern& pattern, const Stretching& fine, const Stretching& coarse,
                          const TearPatternOptions& options, Progress* progress) {
-  return Tearing(pattern, mesh, cloth, wanted, options, progress).run();
+  const bool in_rounds = options.choice.greedy || options.candidates.weighting == TearWeighting::Boundary;
+  std::vector<Sheet> sheets = make_sheets(pattern, fine), coarse_sheets = make_sheets(pattern, coarse, &sheets);
+  TornPattern torn = in_rounds ? tear_in_rounds(pattern, coarse.mesh, std::move(coarse_sheets), options, progress)
+                               : Planning(pattern, coarse.mesh, std::move(coarse_sheets), options, progress).run();
+  const std::vector<Sheet> planned = std::move(torn.sheets);
+  torn.sheets = std::move(sheets);
+  const double limit = options.candidates.stretch_limit;
+  for (std::size_t p = 0; p < torn.sheets.size(); ++p) {
+    PanelTearing& panel = torn.panels[p];
+    const bool tense = !panel.tears.empty() || share_of_limit(measure_stress(torn.sheets[p], limit), limit) >= 1.0;
+    if (!pattern.panels[p].locked && tense)
+      carry_out(torn.sheets[p], planned[p], panel, torn.jobs[p], options, progress);
+    panel.after = measure_stress(torn.sheets[p], limit);
+    conclude(torn.sheets[p], pattern.panels[p].locked, limit, panel);
+  }
+  return torn;
 }
 
 }  // namespace toile

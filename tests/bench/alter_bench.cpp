@@ -1,50 +1,59 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// alter [GARMENT:BODY...] [--triangles N] [--cache FOLDER] [--pictures FOLDER] [--greedy] [--sentences] [--growth]:
-// alters shared garments for other bodies (default: the derivation's 40 pairs) and prints operations, what stretch the
-// cloth keeps, and the CPU time of the alteration alone.
+// alter [GARMENT[:BODY]...] [--triangles N] [--stages FOLDER] [--pictures FOLDER] [--greedy] [--drape] [--sentences]
+//       [--mu X] [--gamma X] [--mesh-edges] [--growth]: alters shared garments for other bodies (default: the
+// derivation's 40 pairs) and prints operations, what strain the cloth keeps, and the CPU time of the alteration alone.
+// --drape: also how it fits, sewn and draped. --greedy: beside choosing without the program. --pictures: one per pair
+// and contact_sheet.png. --stages: where finished stages are kept. Then which of the acceptance lines hold.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
-#include "engine/alter/alter_pattern.h"
-#include "engine/core/drawing.h"
-#include "engine/core/units.h"
-#include "engine/render/drawing_picture.h"
 #include "engine/render/png.h"
+#include "engine/stage_options.h"
 #include "tests/bench/alter_pairs.h"
-#include "tests/bench/bench.h"
+#include "tests/bench/derive.h"
+#include "tests/support/shared_data.h"
 
 namespace toile::bench {
 namespace {
 
+constexpr double kPercent = 100.0, kMm = 1e3;
+constexpr int kSheetColumns = 5, kSheetWidth = 620;
+// Gates of the acceptance lines.
+constexpr double kShareOfIdeal = 1.25, kFartherOff = 2e-3, kBalance = 0.01, kFewFlags = 0.1,
+                 kNarrow = 0.95;  // widths are measured to a few per cent
+
 struct Request {
   std::vector<AlterPair> pairs;
-  int triangles = 4000;
-  std::string cache, pictures;
-  bool greedy = false, sentences = false, growth = false;
-  AlterPatternOptions options;
+  std::string stages, pictures;
+  bool greedy = false, drape = false, sentences = false, growth = false;
+  AlterOptions job;
 };
 
 Request parse(const std::vector<std::string>& words) {
   Request request;
+  request.job.triangles = 4000;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
     const auto value = [&] { return i + 1 < words.size() ? words[++i] : std::string(); };
     if (word == "--triangles")
-      request.triangles = std::atoi(value().c_str());
-    else if (word == "--cache")
-      request.cache = value();
+      request.job.triangles = std::atoi(value().c_str());
+    else if (word == "--stages")
+      request.stages = value();
     else if (word == "--pictures")
       request.pictures = value();
     else if (word == "--mu")
-      request.options.stretch_limit = std::atof(value().c_str());
+      request.job.stretch_limit = std::atof(value().c_str());
     else if (word == "--gamma")
-      request.options.seam_preference = std::atof(value().c_str());
+      request.job.seam_preference = std::atof(value().c_str());
     else if (word == "--mesh-edges")
-      request.options.mesh_edge_cuts = true;
+      request.job.cuts = CutKind::MeshEdges;
     else if (word == "--greedy")
       request.greedy = true;
+    else if (word == "--drape")
+      request.drape = true;
     else if (word == "--sentences")
       request.sentences = true;
     else if (word == "--growth")
@@ -59,102 +68,149 @@ Request parse(const std::vector<std::string>& words) {
   return request;
 }
 
-std::vector<Vec2> in_mm(std::vector<Vec2> line, const Vec2& shift = Vec2::Zero()) {
-  for (Vec2& p : line) p = p * kMmPerMetre + shift;
-  return line;
-}
+struct Row {
+  AlterPair pair;
+  AlterOutcome chosen;
+  std::optional<AlterOutcome> greedy;
+  std::optional<AlterFit> fit;
+};
 
-// A panel as it is cut (left) and as it will be (right).
-DrawingPiece panel_piece(const PanelAlteration& panel) {
-  DrawingPiece piece;
-  piece.name = panel.panel;
-  double right = -1e9, left = 1e9, top = -1e9;
-  for (const Vec2& p : panel.original) right = std::max(right, p.x()), top = std::max(top, p.y());
-  for (const Vec2& p : panel.target) left = std::min(left, p.x()), top = std::max(top, p.y());
-  const Vec2 shift((right - left) * kMmPerMetre + 40, 0);
-  piece.lines.push_back({LineKind::Original, in_mm(panel.original), true, {}});
-  for (const auto& region : panel.removals)
-    piece.lines.push_back({LineKind::Removal, in_mm(region.shape.outline), true, {}});
-  for (const auto& cut : panel.cut_lines) piece.lines.push_back({LineKind::Insertion, in_mm(cut), false, {}});
-  for (const auto& part : panel.kept) piece.lines.push_back({LineKind::Stitch, in_mm(part.outline), true, {}});
-  piece.lines.push_back({LineKind::Original, in_mm(panel.target, shift), true, {}});
-  for (const auto& part : panel.kept_in_target) piece.lines.push_back({LineKind::Stitch, in_mm(part, shift), true, {}});
-  for (const auto& region : panel.insertions)
-    piece.lines.push_back({LineKind::Insertion, in_mm(region.shape.outline, shift), true, {}});
-  piece.texts.push_back({Vec2(right * kMmPerMetre, top * kMmPerMetre + 12), 14.0, panel.panel});
-  return piece;
-}
-
-void draw(const Request& request, const AlterPair& pair, const AlterPatternResult& result) {
-  Drawing drawing{pair.garment, {}};
-  for (const PanelAlteration& panel : result.panels) drawing.pieces.push_back(panel_piece(panel));
-  DrawingPictureOptions options;
-  options.title = pair.garment + " for " + pair.body + ": " + std::to_string(result.ticket.operations.size()) +
-                  " operations; red taken away (left), blue let in (right)";
-  const Bytes png = write_png(draw_picture(drawing, options));
-  std::filesystem::create_directories(request.pictures);
-  std::ofstream(request.pictures + "/" + pair.garment + "_" + pair.body + ".png", std::ios::binary)
+void write(const std::string& folder, const std::string& name, const Image& image) {
+  std::filesystem::create_directories(folder);
+  const Bytes png = write_png(image);
+  std::ofstream(folder + "/" + name + ".png", std::ios::binary)
       .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
 }
 
-struct Remaining {
-  double before = 0.0, after = 0.0;  // worst panel's p98 of both passes, dimensionless
-  std::size_t tears = 0;
-};
-
-Remaining remaining(const AlterPatternResult& result) {
-  Remaining r;
-  for (const PanelAlteration& panel : result.panels)
-    for (const PanelTearing* pass : {&panel.insertion_pass, &panel.removal_pass}) {
-      r.before = std::max(r.before, pass->before.p98);
-      r.after = std::max(r.after, pass->after.p98);
-      r.tears += pass->tears.size();
-    }
-  return r;
+void print_sentences(const AlterPair& pair, const AlterPatternResult& result) {
+  std::printf("%s for %s\n", pair.garment.c_str(), pair.body.c_str());
+  for (const TicketOperation& operation : result.ticket.operations) std::printf("  %s\n", operation.sentence.c_str());
+  for (const std::string& flag : result.flags) std::printf("  flag: %s\n", flag.c_str());
+  for (const std::string& flag : result.sewn.flags) std::printf("  flag: %s\n", flag.c_str());
 }
 
-double alter_one(const Request& request, const AlterPair& pair, int triangles, Table& table) {
-  const DerivedPair d = derive_pair(pair, triangles, request.cache);
+AlterPatternResult alter_derived(const DerivedGarment& derived, const AlterOptions& job) {
+  return alter_pattern(derived.reference.pattern, derived.reference.mesh, derived.derived.mesh.rest,
+                       alter_options_of(job));
+}
+
+Row alter_one(const Request& request, const AlterPair& pair, const AlterOptions& job, StageCache* stages,
+              std::vector<Image>& sheet) {
+  const DerivedGarment derived = derive_pair(pair.garment, pair.body, job, stages);
   const double start = cpu_seconds();
-  const AlterPatternResult result = alter_pattern(d.pattern, d.mesh, d.target_rest, request.options);
-  const double took = cpu_seconds() - start;
-  const Remaining left = remaining(result);
-  std::string greedy = "-";
+  const AlterPatternResult result = alter_derived(derived, job);
+  Row row{pair, outcome_of(result), {}, {}};
+  row.chosen.seconds = cpu_seconds() - start;
   if (request.greedy) {
-    AlterPatternOptions options = request.options;
-    options.choice = TearChoice::Greedy;
-    const AlterPatternResult other = alter_pattern(d.pattern, d.mesh, d.target_rest, options);
-    greedy = std::to_string(other.ticket.operations.size()) + " / " + fixed(100 * remaining(other).after, 1);
+    AlterOptions greedy = job;
+    greedy.tear_weights = TearWeights::Greedy;
+    row.greedy = outcome_of(alter_derived(derived, greedy));
   }
-  table.add({pair.garment, pair.body, std::to_string(d.mesh.triangle_count()),
-             std::to_string(result.ticket.operations.size()), std::to_string(left.tears), greedy,
-             fixed(100 * left.before, 1), fixed(100 * left.after, 1), std::to_string(result.flags.size()),
-             fixed(1e4 * result.inserted_area, 0), fixed(1e4 * result.removed_area, 0),
-             fixed(100 * result.area_imbalance, 2), std::to_string(result.trials), fixed(took, 2)});
-  if (!request.pictures.empty()) draw(request, pair, result);
-  if (request.sentences) {
-    std::printf("%s for %s\n", pair.garment.c_str(), pair.body.c_str());
-    for (const TicketOperation& operation : result.ticket.operations) std::printf("  %s\n", operation.sentence.c_str());
-    for (const std::string& flag : result.flags) std::printf("  flag: %s\n", flag.c_str());
+  if (request.drape) row.fit = fit_of(derived, result, job);
+  if (!request.pictures.empty()) {
+    write(request.pictures, pair.garment + "_" + pair.body, picture_of(pair, result, 1400));
+    sheet.push_back(picture_of(pair, result, kSheetWidth));
   }
-  return took;
+  if (request.sentences) print_sentences(pair, result);
+  return row;
+}
+
+std::vector<std::string> words_of(const Row& row) {
+  const AlterOutcome& o = row.chosen;
+  std::vector<std::string> words = {row.pair.garment,
+                                    row.pair.body,
+                                    std::to_string(o.operations),
+                                    std::to_string(o.tears),
+                                    row.greedy ? std::to_string(row.greedy->operations) : "-",
+                                    row.greedy ? fixed(kPercent * row.greedy->strain_after, 1) : "-",
+                                    fixed(kPercent * o.strain_before, 1),
+                                    fixed(kPercent * o.strain_after, 1)};
+  if (row.fit && row.fit->problem.empty())
+    for (const double value :
+         {kPercent * row.fit->stretch_before, kPercent * row.fit->stretch_ideal, kPercent * row.fit->stretch_after,
+          kMm * row.fit->position_ideal, kMm * row.fit->position_off})
+      words.push_back(fixed(value, 2));
+  else
+    words.insert(words.end(), 5, row.fit ? "failed" : "-");
+  for (const std::string& word : {std::to_string(o.most_cuts), fixed(kMm * o.narrowest, 0),
+                                  fixed(kPercent * o.balance, 2), std::to_string(o.flags), fixed(o.seconds, 2)})
+    words.push_back(word);
+  return words;
+}
+
+bool fits(const AlterFit& fit, double mu) {
+  return fit.problem.empty() &&
+         fit.stretch_after <= std::max(kShareOfIdeal * fit.stretch_ideal, fit.stretch_ideal + 0.5 * mu);
+}
+
+bool lies(const AlterFit& fit) {
+  return fit.problem.empty() && fit.position_off <= (kShareOfIdeal - 1.0) * fit.position_ideal + kFartherOff;
+}
+
+// Prints how many rows a line holds for, and names the others.
+bool judge(const std::vector<Row>& rows, const char* line, double least_share,
+           const std::function<bool(const Row&)>& holds) {
+  std::size_t good = 0;
+  std::string others;
+  for (const Row& row : rows)
+    if (holds(row))
+      ++good;
+    else
+      others += " " + row.pair.garment + ":" + row.pair.body;
+  const bool met = static_cast<double>(good) >= least_share * static_cast<double>(rows.size());
+  std::printf("%s: %zu of %zu: %s%s%s\n", line, good, rows.size(), met ? "met" : "NOT met", others.empty() ? "" : ";",
+              others.c_str());
+  return met;
+}
+
+int summarise(const std::vector<Row>& rows, const AlterOptions& job) {
+  if (rows.empty()) return 1;
+  bool met = judge(rows, "without a flag", 1.0 - kFewFlags, [](const Row& row) { return row.chosen.flags == 0; });
+  met &= judge(rows, "areas balance within 1 %", 1.0, [](const Row& row) { return row.chosen.balance <= kBalance; });
+  met &= judge(rows, "no side cut into more often than allowed", 1.0,
+               [&](const Row& row) { return row.chosen.most_cuts <= job.max_tears_per_side; });
+  met &= judge(rows, "nothing let in narrower than the least strip", 1.0, [&](const Row& row) {
+    return row.chosen.narrowest == 0.0 || kMm * row.chosen.narrowest >= kNarrow * job.min_strip_mm;
+  });
+  if (rows.front().greedy)
+    met &= judge(rows, "no more operations than the greedy choice", 1.0,
+                 [](const Row& row) { return row.chosen.operations <= row.greedy->operations; });
+  if (rows.front().fit) {
+    met &= judge(rows, "stretch error within 1.25 of the ideal or half the allowed stretch", 1.0,
+                 [&](const Row& row) { return fits(*row.fit, job.stretch_limit); });
+    met &= judge(rows, "off the ideal's drape by at most a quarter of its error and 2 mm", 1.0,
+                 [](const Row& row) { return lies(*row.fit); });
+  }
+  return met ? 0 : 1;
 }
 
 }  // namespace
 
 int bench_alter(const Arguments& arguments) {
+  if (!test::has_shared_data()) {
+    std::fprintf(stderr, "toile-bench alter needs ../shared/data\n");
+    return 2;
+  }
   const Request request = parse(arguments.words);
-  Table table({"garment", "body", "triangles", "operations", "tears", "greedy", "p98 % before", "after", "flags",
-               "inserted cm2", "removed cm2", "balance %", "trials", "CPU s"});
+  const auto stages = stage_store(request.stages);
+  Table table({"garment", "body", "operations", "tears", "greedy", "its p95 %", "p95 % before", "after",
+               "stretch % before", "ideal", "after", "position mm ideal", "off it", "cuts", "narrowest mm", "balance %",
+               "flags", "CPU s"});
+  std::vector<Row> rows;
+  std::vector<Image> sheet;
   for (const AlterPair& pair : request.pairs) {
     std::vector<double> sizes, times;
     for (const int triangles :
-         request.growth ? std::vector<int>{2000, 4000, 10000, 20000} : std::vector<int>{request.triangles}) {
+         request.growth ? std::vector<int>{2000, 4000, 10000, 20000} : std::vector<int>{*request.job.triangles}) {
+      AlterOptions job = request.job;
+      job.triangles = triangles;
       try {
-        times.push_back(alter_one(request, pair, triangles, table));
+        rows.push_back(alter_one(request, pair, job, stages.get(), sheet));
+        table.add(words_of(rows.back()));
+        times.push_back(rows.back().chosen.seconds);
         sizes.push_back(triangles);
-      } catch (const std::exception& e) {
-        std::printf("%s for %s: %s\n", pair.garment.c_str(), pair.body.c_str(), e.what());
+      } catch (const Error& error) {
+        std::printf("%s for %s: %s\n", pair.garment.c_str(), pair.body.c_str(), error.message.c_str());
       }
       std::fflush(stdout);
     }
@@ -163,7 +219,8 @@ int bench_alter(const Arguments& arguments) {
                   growth_exponent(sizes, times));
   }
   table.print(arguments.csv);
-  return 0;
+  if (!sheet.empty()) write(request.pictures, "contact_sheet", tile(sheet, kSheetColumns));
+  return summarise(rows, request.job);
 }
 
 }  // namespace toile::bench

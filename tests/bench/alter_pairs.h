@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Garments of ../shared/data with the target patterns that the pipeline derives for other bodies: what the alteration's
-// benchmark alters. A target pattern is derived once and kept in a folder.
+// Garments of ../shared/data altered for other bodies, as the alteration's benchmark tells of them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/core/pattern.h"
-#include "engine/core/pattern_mesh.h"
+#include "engine/pipeline.h"
+#include "engine/render/image.h"
 
 namespace toile::bench {
 
@@ -18,13 +18,30 @@ struct AlterPair {
 // The pairs of the derivation's acceptance: eight garments, five bodies.
 std::vector<AlterPair> acceptance_pairs();
 
-struct DerivedPair {
-  Pattern pattern;
-  PatternMesh mesh;
-  Points2 target_rest;  // #V x 2
+// What one alteration leaves and costs. Stretch errors and strains are dimensionless.
+struct AlterOutcome {
+  std::size_t operations = 0, tears = 0, flags = 0;
+  double strain_before = 0.0, strain_after = 0.0;  // worst panel's p95 of both passes
+  int most_cuts = 0;                               // into one side of a panel
+  double narrowest = 0.0;                          // m, of what is let in and needs cloth; 0 if nothing is
+  double balance = 0.0;                            // of areas, relative
+  double seconds = 0.0;                            // of CPU, the alteration alone
 };
+AlterOutcome outcome_of(const AlterPatternResult& result);
 
-// `cache` empty: derived anew. Throws what the stages throw.
-DerivedPair derive_pair(const AlterPair& pair, int triangles, const std::string& cache);
+// How the altered garment fits the target body, draped with its insertions sewn in.
+struct AlterFit {
+  std::string problem;                                                    // why it could not be draped, or empty
+  double stretch_before = 0.0, stretch_ideal = 0.0, stretch_after = 0.0;  // rms error
+  double position_ideal = 0.0;                                            // m, of the target pattern's drape
+  double position_off = 0.0;                                              // m, of the altered garment from that drape
+};
+AlterFit fit_of(const DerivedGarment& derived, const AlterPatternResult& result, const AlterOptions& options);
+
+// Every panel as it is cut (left) and as it will be (right).
+Image picture_of(const AlterPair& pair, const AlterPatternResult& result, int width);
+
+// Pictures in rows of `columns`, on white.
+Image tile(const std::vector<Image>& pictures, int columns);
 
 }  // namespace toile::bench

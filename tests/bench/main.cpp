@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   };
   const std::map<std::string, Entry> benches = {
       {"alter",
-       {"alter shared garments for other bodies: [GARMENT:BODY...] [--triangles N] [--cache FOLDER] [--pictures "
+       {"alter shared garments for other bodies: [GARMENT:BODY...] [--drape] [--greedy] [--triangles N] [--pictures "
         "FOLDER]",
         bench_alter}},
       {"alteration", {"draw an alteration: GARMENT.json ACROSS ALONG FOLDER", bench_alteration}},

@@ -2,6 +2,8 @@
 // Cases 7-14 of the method: alterations whose areas are known exactly (in square centimetres here).
 #include "engine/alter/alter_pattern.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/grid_garment.h"
@@ -86,6 +88,132 @@ TEST(AlterPattern, Case13OpensBothPliesOfASeam) {
     ASSERT_EQ(panel.insertions.size(), 1u);
     EXPECT_NEAR(panel.insertions[0].area * kPerCm2, 480, 1);
   }
+}
+
+GridGarment with_locked_sides(GridGarment garment, const std::vector<int>& edges) {
+  for (const int edge : edges) garment.pattern.panels[0].edges[static_cast<std::size_t>(edge)].locked = true;
+  return garment;
+}
+
+GridGarment on_the_mid_plane(GridGarment garment) {
+  garment.pattern.panels[0].translation = {-0.2, 0, 0};
+  return garment;
+}
+
+std::size_t tears_of(const AlterPatternResult& result, TearKind kind) {
+  std::size_t count = 0;
+  for (const PanelAlteration& panel : result.panels)
+    for (const PanelTearing* pass : {&panel.insertion_pass, &panel.removal_pass})
+      for (const MadeTear& made : pass->tears) count += made.tear.kind == kind;
+  return count;
+}
+
+TEST(AlterPattern, LetsASideGoRatherThanCut) {
+  const AlterPatternResult result = alter(sheet(), scaled(1.2, 1));
+  EXPECT_EQ(tears_of(result, TearKind::Edge), 0u);
+  EXPECT_EQ(tears_of(result, TearKind::Release), 1u);
+}
+
+TEST(AlterPattern, CutsWhereBothSidesAreLocked) {
+  const AlterPatternResult result = alter(with_locked_sides(sheet(), {1, 3}), scaled(1.2, 1));
+  EXPECT_EQ(tears_of(result, TearKind::Release), 0u);
+  EXPECT_EQ(tears_of(result, TearKind::Edge), 1u);
+  expect_areas(result, {480, 0}, 1);
+}
+
+TEST(AlterPattern, ThetaZeroForbidsCuts) {
+  AlterPatternOptions options;
+  options.max_tears_per_side = 0;
+  const AlterPatternResult result = alter(with_locked_sides(sheet(), {1, 3}), scaled(1.2, 1), options);
+  EXPECT_EQ(tears_of(result, TearKind::Edge), 0u);
+  EXPECT_FALSE(result.flags.empty());
+}
+
+TEST(AlterPattern, CutsKeepOutOfAPocketAndTakeAnotherPlaceIfThetaGivesIt) {
+  GridGarment garment = with_locked_sides(sheet(), {1, 3});
+  garment.pattern.panels[0].keep_outs = {{{{0.16, 0.2}, {0.24, 0.2}, {0.24, 0.3}, {0.16, 0.3}}, "pocket"}};
+  AlterPatternOptions options;
+  EXPECT_EQ(tears_of(alter(garment, scaled(1.2, 1), options), TearKind::Edge), 0u);
+  options.max_tears_per_side = 2;
+  const AlterPatternResult result = alter(garment, scaled(1.2, 1), options);
+  expect_areas(result, {480, 0}, 1);
+  ASSERT_FALSE(result.panels[0].cut_lines.empty());
+  for (const Vec2& p : result.panels[0].cut_lines[0]) EXPECT_GT(std::abs(p.x() - 0.2), 0.04);
+}
+
+TEST(AlterPattern, ALockedPanelIsLeftAlone) {
+  GridGarment garment = sheet();
+  garment.pattern.panels[0].locked = true;
+  const AlterPatternResult result = alter(garment, scaled(1.2, 1));
+  EXPECT_EQ(result.inserted_area, 0.0);
+  EXPECT_EQ(result.flags.size(), 1u);
+}
+
+TEST(AlterPattern, ALargerAllowedStretchNeedsNoOperation) {
+  AlterPatternOptions options;
+  EXPECT_EQ(alter(sheet(), scaled(1.04, 1), options).ticket.operations.size(), 1u);
+  options.stretch_limit = 0.05;
+  EXPECT_TRUE(alter(sheet(), scaled(1.04, 1), options).ticket.operations.empty());
+}
+
+TEST(AlterPattern, SymmetryWidensBothSidesAlike) {
+  const GridGarment garment = on_the_mid_plane(sheet(0.02, 0.0));
+  AlterPatternOptions options;
+  const AlterPatternResult both = alter(garment, scaled(1.2, 1), options);
+  ASSERT_EQ(both.panels[0].insertions.size(), 2u);
+  EXPECT_NEAR(both.panels[0].insertions[0].area, both.panels[0].insertions[1].area, 1e-4);
+  EXPECT_EQ(both.ticket.operations.size(), 1u);
+  options.symmetric = false;
+  EXPECT_EQ(alter(garment, scaled(1.2, 1), options).panels[0].insertions.size(), 1u);
+}
+
+TEST(AlterPattern, LShapesStayWhole) {
+  AlterPatternOptions options;
+  EXPECT_GT(alter(sheet(), scaled(1.2, 1.2), options).panels[0].insertions.size(), 1u);
+  options.l_shapes = true;
+  EXPECT_EQ(alter(sheet(), scaled(1.2, 1.2), options).panels[0].insertions.size(), 1u);
+}
+
+TEST(AlterPattern, NoCutOpensLessThanTheLeastStrip) {
+  const GridGarment garment = with_locked_sides(sheet(), {1, 3});
+  AlterPatternOptions options;  // 20 mm are asked for
+  options.least_strip = 0.03;
+  EXPECT_EQ(tears_of(alter(garment, scaled(1.05, 1), options), TearKind::Edge), 0u);
+  options.least_strip = 0.015;
+  EXPECT_EQ(tears_of(alter(garment, scaled(1.05, 1), options), TearKind::Edge), 1u);
+}
+
+TEST(AlterPattern, AStripAtASeamHasTheLeastWidthUnlessTheAllowanceGivesWhatIsAsked) {
+  GridGarment garment = with_locked_sides(sheet(), {1});
+  AlterPatternOptions options;  // 20 mm are asked for
+  options.least_strip = 0.03;
+  const AlterPatternResult strip = alter(garment, scaled(1.05, 1), options);
+  expect_areas(strip, {180, 60}, 1);  // 10 mm of the old cloth give way
+  EXPECT_EQ(strip.ticket.operations.at(0).fabric, FabricNeed::NeedsFabric);
+  garment.pattern.panels[0].edges[3].seam_allowance = 0.03;
+  const AlterPatternResult result = alter(garment, scaled(1.05, 1), options);
+  expect_areas(result, {120, 0}, 1);
+  EXPECT_EQ(result.ticket.operations.at(0).fabric, FabricNeed::WithinAllowance);
+}
+
+TEST(AlterPattern, ScaleChangesNothingButTheNumbers) {
+  const auto flare = [](int, const Vec2& p) { return Vec2(p.x() * (0.52 - 0.12 * p.y() / 0.6) / 0.4, p.y()); };
+  const AlterPatternResult once = alter(sheet(), flare);
+  GridGarment large = sheet();
+  large.mesh.rest *= 1.5;
+  for (Vec2& corner : large.pattern.panels[0].corners) corner *= 1.5;
+  const AlterPatternResult result = alter(large, [&](int, const Vec2& p) { return Vec2(1.5 * flare(0, p / 1.5)); });
+  ASSERT_EQ(result.panels[0].insertions.size(), once.panels[0].insertions.size());
+  EXPECT_NEAR(result.inserted_area, 2.25 * once.inserted_area, 0.01 * result.inserted_area);
+}
+
+TEST(AlterPattern, CutsAlongMeshEdgesReachTheSameAreas) {
+  AlterPatternOptions options;
+  options.mesh_edge_cuts = true;
+  const GridGarment garment = with_locked_sides(sheet(), {1, 3});
+  const AlterPatternResult result = alter(garment, scaled(1.2, 1), options);
+  EXPECT_EQ(tears_of(result, TearKind::Edge), 1u);
+  EXPECT_NEAR(result.inserted_area * kPerCm2, 480, 10);
 }
 
 }  // namespace

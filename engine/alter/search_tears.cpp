@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/alter/search_tears.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "engine/geometry/inner_point.h"
+
+namespace toile {
+namespace {
+
+constexpr double kProbe = 0.004;  // m, between the places where a line is looked at
+
+class Search {
+ public:
+  Search(const Sheet& stretched, const std::vector<TearUnit>& units, const SearchTearsOptions& options,
+         std::vector<TearSet>& sets, int& trials, Progress* progress)
+      : stretched_(stretched), units_(units), options_(options), found_(sets), trials_(trials), progress_(progress) {
+    for (const TearSet& set : sets) tried_.insert(set.units);
+  }
+
+  void run(int first_unit) {
+    if (found_.empty()) found_.push_back({{}, measure_stress(stretched_, options_.stretch_limit), {}, {}});
+    if (within(found_.front())) return;
+    std::vector<std::size_t> level = best_of(0);
+    if (level.size() > static_cast<std::size_t>(options_.beam)) level.resize(static_cast<std::size_t>(options_.beam));
+    if (std::find(level.begin(), level.end(), std::size_t{0}) == level.end()) level.push_back(0);
+    for (int size = 1; size <= options_.most_units && !level.empty(); ++size) {
+      const std::size_t first = found_.size();
+      for (const std::size_t parent : level) enlarge(found_[parent].units, size == 1 ? first_unit : 0);
+      level = best_of(first);
+      // What one set reaches, larger ones need not; pairs are tried all the same, so that panels can agree.
+      if (size > 1 && reached(first)) break;
+      if (size > 1 && level.size() > static_cast<std::size_t>(options_.beam))
+        level.resize(static_cast<std::size_t>(options_.beam));
+    }
+  }
+
+ private:
+  bool within(const TearSet& set) const { return share_of_limit(set.stress, options_.stretch_limit) < 1.0; }
+
+  bool reached(std::size_t first) const {
+    return std::any_of(found_.begin() + static_cast<std::ptrdiff_t>(first), found_.end(),
+                       [&](const TearSet& set) { return within(set); });
+  }
+
+  // Sets from `first` on that leave too much, the best first.
+  std::vector<std::size_t> best_of(std::size_t first) const {
+    std::vector<std::size_t> level;
+    for (std::size_t i = first; i < found_.size(); ++i)
+      if (!within(found_[i])) level.push_back(i);
+    std::stable_sort(level.begin(), level.end(),
+                     [&](std::size_t a, std::size_t b) { return found_[a].stress.energy < found_[b].stress.energy; });
+    return level;
+  }
+
+  void enlarge(std::vector<int> units, int first_unit) {
+    if (static_cast<int>(units.size()) >= options_.most_units) return;
+    for (int unit = first_unit; unit < static_cast<int>(units_.size()); ++unit) {
+      if (std::find(units.begin(), units.end(), unit) != units.end()) continue;
+      std::vector<int> more = units;
+      more.push_back(unit);
+      std::sort(more.begin(), more.end());
+      if (tried_.insert(more).second) try_set(more);
+    }
+  }
+
+  void try_set(const std::vector<int>& units) {
+    Sheet sheet = stretched_;
+    std::vector<Tear> tears;
+    for (const int unit : units) {
+      const auto& own = units_[static_cast<std::size_t>(unit)].tears;
+      tears.insert(tears.end(), own.begin(), own.end());
+    }
+    const std::vector<TearOutcome> outcomes = propagate_tears(sheet, tears, options_.tear, progress_, &solver_);
+    ++trials_;
+    TearSet set{units, measure_stress(sheet, options_.stretch_limit), {}, {}};
+    std::size_t next = 0;
+    for (const int unit : units) {
+      double largest = 0.0;
+      for (const Tear& tear : units_[static_cast<std::size_t>(unit)].tears) {
+        const TearOutcome& outcome = outcomes[next++];
+        set.mouths.insert(set.mouths.end(), outcome.mouths.begin(), outcome.mouths.end());
+        largest = std::max(largest, outcome.largest_gap);
+        if (!worth_it(tear, outcome)) return;
+      }
+      set.largest_gaps.push_back(largest);
+    }
+    // Trials are relaxed only roughly; the garment's own mesh is held to the limit itself.
+    if (farthest_outside(sheet) > 2.0 * kMostOutside) return;
+    if (!options_.keep_outs.empty() && enters_keep_out(sheet, tears)) return;
+    for (const TearMouth& mouth : set.mouths)
+      if (stretched_.sides[static_cast<std::size_t>(mouth.side)].locked) return;
+    found_.push_back(std::move(set));
+  }
+
+  bool worth_it(const Tear& tear, const TearOutcome& outcome) const {
+    if (!outcome.opened) return false;
+    return tear.kind == TearKind::Release || outcome.largest_gap >= options_.least_strip;
+  }
+
+  bool kept_out(const Vec2& a, const Vec2& b) const {
+    const int steps = 1 + static_cast<int>((b - a).norm() / kProbe);
+    for (int i = 0; i <= steps; ++i)
+      for (const auto& polygon : options_.keep_outs)
+        if (inside_polygon(polygon, a + (b - a) * i / steps)) return true;
+    return false;
+  }
+
+  // Whether a cut crosses a region to keep out of, or cloth taken away at a side reaches into one.
+  bool enters_keep_out(const Sheet& sheet, const std::vector<Tear>& tears) const {
+    const auto original = [&](int v) -> const Vec2& {
+      const SheetVertex& vertex = sheet.vertices[static_cast<std::size_t>(v)];
+      return options_.removing ? vertex.now : vertex.flat;
+    };
+    for (const Cut& cut : sheet.cuts)
+      for (std::size_t i = 0; i < cut.lips.size(); ++i) {
+        if (kept_out(original(cut.lips[i].first), original(cut.lips[i].second))) return true;
+        if (i > 0 && kept_out(original(cut.lips[i - 1].first), original(cut.lips[i].first))) return true;
+      }
+    if (!options_.removing) return false;
+    for (const Tear& tear : tears)
+      for (const SheetVertex& vertex : sheet.vertices) {
+        const SheetAnchor* anchor = tear.kind == TearKind::Release ? vertex.anchor(tear.side) : nullptr;
+        if (!anchor || anchor->attached) continue;
+        const SideCurve& side = sheet.wanted_sides[static_cast<std::size_t>(tear.side)];
+        if (kept_out(vertex.now, side.closest(vertex.now).point)) return true;
+      }
+    return false;
+  }
+
+  const Sheet& stretched_;
+  const std::vector<TearUnit>& units_;
+  const SearchTearsOptions& options_;
+  std::vector<TearSet>& found_;
+  int& trials_;
+  Progress* progress_;
+  SparseSolver solver_;  // all sets that only let sides go share one pattern of equations
+  std::set<std::vector<int>> tried_;
+};
+
+}  // namespace
+
+double share_of_limit(const SheetStress& stress, double limit) {
+  const double rms = stress.area > 0.0 ? std::sqrt(0.5 * stress.energy / stress.area) : 0.0;
+  return std::min(stress.p95, 2.0 * rms) / limit;
+}
+
+double farthest_outside(const Sheet& sheet) {
+  std::vector<Vec2> wanted;
+  for (const SideCurve& side : sheet.wanted_sides)
+    wanted.insert(wanted.end(), side.points().begin(), side.points().end() - 1);
+  double farthest = 0.0;
+  for (const BorderEdge& edge : border_edges(sheet)) {
+    const Vec2& p = sheet.vertices[static_cast<std::size_t>(edge.from)].now;
+    if (!inside_polygon(wanted, p)) farthest = std::max(farthest, distance_to_polygon(wanted, p));
+  }
+  return farthest;
+}
+
+void search_tears(const Sheet& stretched, const std::vector<TearUnit>& units, int first_unit,
+                  const SearchTearsOptions& options, std::vector<TearSet>& sets, int& trials, Progress* progress) {
+  Search(stretched, units, options, sets, trials, progress).run(first_unit);
+}
+
+}  // namespace toile

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which sets of tears would bring one panel within the allowed stretch: each set is carried out on a copy of the
+// stretched sheet and relaxed for itself, so that no set holds a tear which another one makes needless
+// [Eggler2024, Sec. 6.2, Fig. 10].
+#pragma once
+
+#include "engine/alter/stretch.h"
+#include "engine/alter/tear_units.h"
+
+namespace toile {
+
+struct TearSet {
+  std::vector<int> units;            // of the panel, ascending; empty: the panel is left alone
+  SheetStress stress;                // what it leaves
+  std::vector<TearMouth> mouths;     // where it breaks the outline
+  std::vector<double> largest_gaps;  // m, per unit
+};
+
+struct SearchTearsOptions {
+  double stretch_limit = 0.03;               // mu
+  double least_strip = 0.015;                // m: a cut that opens less is not made
+  bool removing = false;                     // what opens is taken away; the original pattern is where the sheet lies
+  std::vector<std::vector<Vec2>> keep_outs;  // regions of the original pattern that are neither cut nor taken away
+  TearOptions tear;
+  int beam = 4;        // sets of one size that are enlarged
+  int most_units = 4;  // of a set
+};
+
+// How far kept cloth reaches out of the wanted panel, m: where a tear made it overlap what it should lie beside.
+double farthest_outside(const Sheet& sheet);
+
+// What is left over what is allowed; 1: just that. By the strain that a twentieth of the cloth exceeds, or by what all
+// of it adds to the fit's error (rms of both directions) against half the limit, whichever is kinder: round the tips of
+// darts and corners strain is high in little cloth, and no tear helps.
+double share_of_limit(const SheetStress& stress, double limit);
+
+// What farther out than this is no alteration, m.
+inline constexpr double kMostOutside = 0.01;
+
+// Adds to `sets` (the empty set first, then in the order they are tried) what the units from `first_unit` on make
+// possible; with `sets` empty and `first_unit` 0 everything. `trials` is counted up.
+void search_tears(const Sheet& stretched, const std::vector<TearUnit>& units, int first_unit,
+                  const SearchTearsOptions& options, std::vector<TearSet>& sets, int& trials,
+                  Progress* progress = nullptr);
+
+}  // namespace toile
