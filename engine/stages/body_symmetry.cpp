@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include <Eigen/Eigenvalues>
+
+#include "engine/core/units.h"
 #include "engine/geometry/closest_point.h"
 #include "engine/geometry/components.h"
 
@@ -14,6 +17,9 @@ constexpr int kSteps = 30;             // point to plane settles in 10 to 30
 constexpr double kNormalCosine = 0.5;  // a match must face the same way
 constexpr double kSoftness = 2.0;  // matches this many medians away count a quarter; a sharp bound makes the end chancy
 constexpr double kLowest = 0.5;    // of the height: feet and legs are placed at will, trunk and arms have the lever
+constexpr double kUpright = 0.004;  // m: a body this near to its mirror image does not lean
+constexpr double kLeastLean = 1.0 * kRadianPerDegree;
+constexpr double kHeld = 1e12;     // weight that forbids a motion
 constexpr double kSettled = 1e-5;  // rad and m: under what a normalised body is compared by
 
 Mat3 turn_about_y(double angle) {
@@ -48,10 +54,14 @@ Footprint footprint(const TriangleMesh& body) {
   return {Vec3(sx / area, 0.0, sz / area), 0.5 * std::atan2(2.0 * xz, xx - zz)};
 }
 
-// Triangle centres evenly over the list of triangles, mirrored at x = 0 of the turned frame.
-std::vector<Sample> mirrored_samples(const TriangleMesh& body, double yaw) {
+// Mirror at x = 0 of the turned frame.
+Mat3 mirror_after(double yaw) {
   const Mat3 turn = turn_about_y(yaw);
-  const Mat3 mirror = turn.transpose() * Vec3(-1, 1, 1).asDiagonal() * turn;
+  return turn.transpose() * Vec3(-1, 1, 1).asDiagonal() * turn;
+}
+
+// Triangle centres evenly over the list of triangles, mirrored.
+std::vector<Sample> mirrored_samples(const TriangleMesh& body, const Mat3& mirror) {
   const double bottom = body.vertices.col(1).minCoeff();
   const double lowest = bottom + kLowest * (body.vertices.col(1).maxCoeff() - bottom);
   std::vector<Sample> samples;
@@ -73,20 +83,23 @@ class MirrorFit {
  public:
   explicit MirrorFit(const TriangleMesh& body) : body_(body), tree_(body.vertices, body.triangles) {}
 
-  // Turn and shift of the mirrored samples onto the body.
-  void run(std::vector<Sample>& samples) {
+  // Turn and shift of the mirrored samples onto the body: about and along the ground, or any.
+  void run(std::vector<Sample>& samples, bool any) {
     for (int step = 0; step < kSteps; ++step) {
       const std::vector<Match> matches = find_matches(samples);
       if (matches.size() < 10) return;
-      const Vec3 move = solve(matches);
-      const Mat3 turn = turn_about_y(move[0]);
+      const Motion move = solve(matches, any);
+      const double angle = move.head<3>().norm();
+      const Mat3 turn =
+          Eigen::AngleAxisd(angle, angle > 0 ? Vec3(move.head<3>() / angle) : Vec3::UnitY()).toRotationMatrix();
       turn_ = turn * turn_;
-      shift_ = turn * shift_ + Vec3(move[1], 0.0, move[2]);
+      shift_ = turn * shift_ + move.tail<3>();
       if (move.cwiseAbs().maxCoeff() < kSettled) return;
     }
   }
 
   double angle() const { return std::atan2(turn_(0, 2), turn_(0, 0)); }
+  const Mat3& turn() const { return turn_; }
   const Vec3& shift() const { return shift_; }
   double residual() const { return median_; }
 
@@ -109,13 +122,19 @@ class MirrorFit {
     return matches;
   }
 
-  // Least squares for (angle, x, z): n . (angle (z, 0, -x) + shift) = gap.
-  Vec3 solve(const std::vector<Match>& matches) const {
+  using Motion = Eigen::Matrix<double, 6, 1>;  // turn vector, shift
+
+  // Least squares: n . (turn x at + shift) = gap.
+  Motion solve(const std::vector<Match>& matches, bool any) const {
     const double soft = kSoftness * median_ + kSettled;
-    Mat3 normal = Mat3::Identity() * 1e-9;
-    Vec3 right = Vec3::Zero();
+    Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Identity() * 1e-9;
+    if (!any)
+      for (const int held : {0, 2, 4}) normal(held, held) = kHeld;
+    Motion right = Motion::Zero();
     for (const Match& m : matches) {
-      const Vec3 row(m.normal.x() * m.at.z() - m.normal.z() * m.at.x(), m.normal.x(), m.normal.z());
+      Motion row;
+      const Vec3 lever = m.at.cross(m.normal);
+      row.head<3>() = lever, row.tail<3>() = m.normal;
       const double near = 1.0 / (1.0 + m.gap * m.gap / (soft * soft));
       normal += near * near * row * row.transpose();
       right += near * near * row * m.gap;
@@ -130,20 +149,38 @@ class MirrorFit {
   double median_ = 0.0;
 };
 
+// The plane of a mirror image that fits: x -> image x + shift is I - 2 n n^T about the plane n . x = n . shift / 2.
+std::optional<BodySymmetry> leaning_plane(const Mat3& image, const MirrorFit& fit, const Footprint& seen) {
+  const Mat3 part = 0.5 * (Mat3::Identity() - 0.5 * (image + image.transpose()));
+  Vec3 n = Eigen::SelfAdjointEigenSolver<Mat3>(part).eigenvectors().col(2);
+  if ((turn_about_y(seen.yaw) * n).x() < 0) n = -n;
+  BodySymmetry found;
+  found.lean = std::asin(std::clamp(n.y(), -1.0, 1.0));
+  if (std::abs(found.lean) < kLeastLean) return std::nullopt;
+  found.yaw = std::atan2(n.z(), n.x());
+  found.offset = n.dot(seen.centre + 0.5 * fit.shift());
+  found.residual = fit.residual();
+  return found;
+}
+
 }  // namespace
 
 BodySymmetry find_symmetry(const TriangleMesh& body) {
   const Footprint seen = footprint(body);
   const TriangleMesh centred{body.vertices.rowwise() - seen.centre.transpose(), body.triangles};
-  std::vector<Sample> samples = mirrored_samples(centred, seen.yaw);
+  const Mat3 mirror = mirror_after(seen.yaw);
+  std::vector<Sample> samples = mirrored_samples(centred, mirror);
   MirrorFit fit(centred);
-  fit.run(samples);
+  fit.run(samples, false);
   // In the frame turned by yaw - angle / 2 the mirrored body meets the body by a shift alone; half of it is the plane.
   BodySymmetry found;
   found.yaw = seen.yaw - 0.5 * fit.angle();
   found.offset = (turn_about_y(found.yaw) * (seen.centre + 0.5 * fit.shift())).x();
   found.residual = fit.residual();
-  return found;
+  if (found.residual < kUpright) return found;
+  fit.run(samples, true);
+  if (fit.residual() > found.residual) return found;
+  return leaning_plane(fit.turn() * mirror, fit, seen).value_or(found);
 }
 
 }  // namespace toile

@@ -9,15 +9,16 @@ namespace {
 // Where the points lie, read off the 15 bodies of shared/data (medians).
 // Fractions of the height:
 constexpr double kBustDeep = 0.085, kBustHigh = 0.012;  // bust points are sought this far under the armpit
-constexpr double kBustFlat = 0.0262;                    // where a chest has no foremost point
 constexpr double kBustNear = 0.025, kBustFar = 0.09;    // distance from the mid-plane
 constexpr double kBustSide = 0.05;                      // and where there is no foremost point
 constexpr double kBustCrest = 0.0015;                   // the profile must fall back by this under a crest
+constexpr double kBustCap = 0.0001;                     // what lies within this of the crest counts as crest
 constexpr double kBustStep = 0.001;                     // m
 // Fractions of the way from crotch to armpit:
 constexpr double kWaist = 0.60, kHip = 0.10;
 // Fractions of the way from armpit to the least neck:
 constexpr double kNeckBack = 0.88, kNeckFront = 0.52;
+constexpr double kBustFlat = -0.225;  // where a chest has no foremost point
 // Fractions of the crotch height:
 constexpr double kKnee = 0.61, kAnkle = 0.095;
 
@@ -37,6 +38,7 @@ class Finder {
       : body_(body), s_(skeleton), slices_(slices), levels_(levels), h_(slices.height()) {}
 
   Landmarks run() {
+    add_bust_points();
     for (const Side side : {Left, Right}) add_limb_points(side);
     const double trunk = levels_.armpit - levels_.crotch, neck = s_.neck_y - s_.armpit_y;
     add_ring("waist", levels_.crotch + kWaist * trunk);
@@ -61,7 +63,6 @@ class Finder {
     const Vec3 along = (arm.shoulder - arm.elbow).normalized();
     add("elbow", side, skin(arm.elbow, across(Vec3(0.3 * out.x(), -0.2, -1.0), along)));
     add("wrist", side, skin(arm.wrist, across(Vec3(0.5 * out.x(), 0.5, 1.0), (arm.elbow - arm.wrist).normalized())));
-    add("bust", side, bust(side));
     const double trunk = levels_.armpit - levels_.crotch;
     add("hip", side, trunk_side(levels_.crotch + kHip * trunk, out));
     add("knee", side, leg_point(kKnee * levels_.crotch, side, front));
@@ -72,18 +73,43 @@ class Finder {
     return (direction - axis * axis.dot(direction)).normalized();
   }
 
-  // The foremost point of a breast: the first crest of the front profile under the armpit. A chest that only runs on
-  // into the belly has none; there the usual level is taken.
-  Vec3 bust(Side side) const {
-    const double sign = side == Left ? 1.0 : -1.0;
-    std::optional<Vec3> crest;
+  // Where the front profile of both breasts together has its first crest under the armpit: noise makes crests on one
+  // side alone. None on a chest that only runs on into the belly.
+  std::optional<double> bust_crest() const {
+    std::vector<Vec2> profile;  // y, z
+    double foremost = -1e300;
     for (double y = levels_.armpit - kBustHigh * h_; y > levels_.armpit - kBustDeep * h_; y -= kBustStep) {
-      const std::optional<Vec3> p = chest_front(y, sign);
-      if (!p) continue;
-      if (!crest || p->z() > crest->z()) crest = p;
-      if (crest->z() > p->z() + kBustCrest * h_) return *crest;
+      const std::optional<Vec3> left = chest_front(y, 1.0), right = chest_front(y, -1.0);
+      if (!left || !right) continue;
+      profile.emplace_back(y, 0.5 * (left->z() + right->z()));
+      foremost = std::max(foremost, profile.back().y());
+      if (foremost > profile.back().y() + kBustCrest * h_) return middle_of_crest(profile, foremost);
     }
-    const double y = levels_.armpit - kBustFlat * h_, x = sign * kBustSide * h_;
+    return std::nullopt;
+  }
+
+  // A blunt crest is uncertain by more than its cap is high: the middle of the cap is surer than its foremost point.
+  double middle_of_crest(const std::vector<Vec2>& profile, double foremost) const {
+    double sum = 0.0, weight = 0.0;
+    for (const Vec2& p : profile) {
+      const double w = std::max(0.0, p.y() - (foremost - kBustCap * h_));
+      sum += w * p.x(), weight += w;
+    }
+    return sum / weight;
+  }
+
+  void add_bust_points() {
+    const std::optional<double> crest = bust_crest();
+    const double y = crest.value_or(levels_.armpit + kBustFlat * (s_.neck_y - levels_.armpit));
+    for (const Side side : {Left, Right}) {
+      const double sign = side == Left ? 1.0 : -1.0;
+      const std::optional<Vec3> front = crest ? chest_front(y, sign) : std::nullopt;
+      add("bust", side, front ? *front : flat_bust(y, sign));
+    }
+  }
+
+  Vec3 flat_bust(double y, double sign) const {
+    const double x = sign * kBustSide * h_;
     const auto trunk = slices_.middle(y);
     const auto points = trunk ? trunk->points(x - 0.01 * h_, x + 0.01 * h_) : std::vector<Vec2>{};
     return points.empty() ? Vec3(x, y, 0) : at_level(furthest(points, Vec2(0, 1)), y);

@@ -16,7 +16,7 @@ namespace {
 // Fractions of the height unless a unit is named. Limits: shared design page "registration", section 4.
 constexpr double kStrayArea = 0.02;                               // of the largest component: smaller ones are specks
 constexpr double kSecondBodyArea = 0.2;                           // of all area: as large as that is another body
-constexpr double kUprightRefused = 1.7;                           // persons 1.89-2, headless 1.5, cube 1.0
+constexpr double kUprightRefused = 1.6;                           // persons 1.89-2, leaning 1.67, headless 1.5, cube 1
 constexpr double kFrontRefused = 0.03, kFrontWarned = 0.06;       // persons .075-.098
 constexpr double kMirrorRefused = 0.015;                          // m; persons 0-2 mm, two people 45 mm
 constexpr double kFloorQuantile = 0.0005;                         // of the vertices: a few may stick out below
@@ -193,6 +193,7 @@ class Normaliser {
                      "symmetric A- or T-pose is needed",
                      symmetry.residual * kMmPerMetre, kMirrorRefused * kMmPerMetre));
     offset_ = symmetry.offset;
+    if (symmetry.lean != 0.0) straighten(symmetry);
     floor_ = low_quantile(body_.vertices);
     height_ = body_.vertices.col(1).maxCoeff() - floor_;
     const auto turn = [&] { return Eigen::AngleAxisd(result_.yaw, Vec3::UnitY()).toRotationMatrix(); };
@@ -212,6 +213,14 @@ class Normaliser {
           print_text("the feet are unusual (toes minus heels %.3f of the height, persons .08): "
                      "check that the front is right",
                      result_.front));
+  }
+
+  // Turns the mid-plane upright, about the axis that lies in it and in the ground.
+  void straighten(const BodySymmetry& symmetry) {
+    const Vec3 axis = Eigen::AngleAxisd(-symmetry.yaw, Vec3::UnitY()) * Vec3::UnitZ();
+    apply(affine(Eigen::AngleAxisd(-symmetry.lean, axis).toRotationMatrix()));
+    result_.warnings.push_back(print_text("the body leant to a side by %.1f degrees and was straightened",
+                                          std::abs(symmetry.lean) / kRadianPerDegree));
   }
 
   // Turn and shift, leaving alone what is already right.

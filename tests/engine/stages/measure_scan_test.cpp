@@ -13,7 +13,7 @@ namespace toile {
 namespace {
 
 constexpr double kLarge = 9e-3;    // m, ISO 20685-1 for large girths
-constexpr double kBust = 20e-3;    // m: on the child there is no bust to tell its height by
+constexpr double kBust = 10e-3;    // m: a flat chest has no bust to tell its height by
 constexpr double kCrotch = 15e-3;  // m: cut away in these scans; it hangs on where the mannequin bridges it
 constexpr double kHeight = 9e-3;   // m: crown and soles are cut away
 

@@ -99,6 +99,22 @@ TEST(NormaliseBody, BringsAShiftedBodyToTheOrigin) {
             1e-3);
 }
 
+TEST(NormaliseBody, StraightensABodyThatLeansToASide) {
+  TOILE_REQUIRE_SHARED_DATA();
+  for (const char* name : {"mh_female_average", "ggg_mean_male"}) {
+    const TriangleMesh body = load_shared_body(name).surface;
+    const Mat3 lean = Eigen::AngleAxisd(-5.0 * kRadianPerDegree, Vec3::UnitZ()).toRotationMatrix();
+    const NormaliseBodyResult result = normalise_body(moved(body, about_y(0.8) * lean, 1.0, Vec3(0.2, 0, 0.1)));
+    EXPECT_LT(result.mirror_residual, 4e-3) << name;
+    EXPECT_FALSE(result.warnings.empty()) << name;
+    const Vec3 shift = (result.surface.vertices - body.vertices).colwise().mean();
+    EXPECT_LT(std::abs(shift.x()), 3e-3) << name;
+    EXPECT_LT(((result.surface.vertices - body.vertices).rowwise() - shift.transpose()).rowwise().norm().maxCoeff(),
+              10e-3)
+        << name;
+  }
+}
+
 TEST(NormaliseBody, PutsScansUpright) {
   TOILE_REQUIRE_SHARED_DATA();
   const auto normalised = [](const char* name) { return normalise_body(load_shared_scan(name)); };

@@ -112,5 +112,34 @@ TEST(RegisterGuards, LyingAndUpsideDownBodiesArePutRight) {
   }
 }
 
+struct Variant {
+  const char* reference;
+  const char* body;
+  unsigned seed;
+  double median, p95;  // mm, 1.3 times the gates of the shared scans
+};
+
+class SlowRegisterVariants : public testing::TestWithParam<Variant> {};
+
+TEST_P(SlowRegisterVariants, StaysNearTheGatesOfTheSharedScans) {
+  TOILE_REQUIRE_SHARED_DATA();
+  const Variant& v = GetParam();
+  const test::RegistrationCase known = test::variant_case(v.body, v.seed);
+  const RegistrationReference& prepared = reference(v.reference);
+  const RegisterBodiesResult result = register_bodies(prepared, known.target);
+  const auto score = score_registration(result.map.mapped, prepared.weights, known, v.reference, true);
+  EXPECT_LT(score.median * 1e3, v.median);
+  EXPECT_LT(score.p95 * 1e3, v.p95);
+  EXPECT_LT(score.surface_mean * 1e3, 1.3);
+  EXPECT_LT(score.surface_p95 * 1e3, 3.25);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, SlowRegisterVariants,
+                         testing::Values(Variant{kMean, "ggg_mean_female", 101, 13, 26},
+                                         Variant{kMean, "ggg_large_male", 102, 13, 26},
+                                         Variant{kWoman, "mh_female_heavy_short", 103, 15.6, 39},
+                                         Variant{kWoman, "mh_child_8y", 104, 15.6, 39},
+                                         Variant{kWoman, "mh_male_average", 105, 20.8, 58.5}));
+
 }  // namespace
 }  // namespace toile
