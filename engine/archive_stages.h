@@ -155,8 +155,8 @@ void archive(A& a, AlteredRegion& v) {
 }
 template <class A>
 void archive(A& a, SheetStress& v) {
-  auto& [energy, p95, p98, area, over] = v;
-  a(energy, p95, p98, area, over);
+  auto& [energy, p95, p98, way, area, over] = v;
+  a(energy, p95, p98, way, area, over);
 }
 template <class A>
 void archive(A& a, Tear& v) {

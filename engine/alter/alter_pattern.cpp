@@ -15,6 +15,7 @@ namespace {
 constexpr int kPlanTriangles = 600;      // of the garment: tears are chosen on so many
 constexpr double kPastMouth = 0.001;     // m
 constexpr double kMostImbalance = 0.03;  // of the area of a panel: more is no stretch but pieces that overlap
+constexpr double kLeastWay = 0.004;      // m: narrow bands may be strained by so much without more ado
 constexpr double kLeastPart = 2e-5;      // m^2: what a dart leaves of an opening and is smaller is crumbs
 
 TearPatternOptions pass_options(const Pattern& pattern, const AlterPatternOptions& options, bool removing) {
@@ -131,7 +132,12 @@ void check_balance(AlterPatternResult& result, const PanelAlteration& panel) {
   double off = signed_area(panel.original) - target - panel.cut_back;
   for (const AlteredRegion& region : panel.insertions) off += region.area;
   for (const AlteredRegion& region : panel.removals) off -= region.area;
-  if (std::abs(off) <= kMostImbalance * target || (panel.insertions.empty() && panel.removals.empty())) return;
+  double around = 0.0;
+  for (std::size_t i = 0; i < panel.target.size(); ++i)
+    around += (panel.target[(i + 1) % panel.target.size()] - panel.target[i]).norm();
+  if (std::abs(off) <= std::max(kMostImbalance * target, 0.5 * kLeastWay * around) ||
+      (panel.insertions.empty() && panel.removals.empty()))
+    return;
   char share[32];
   std::snprintf(share, sizeof share, "%.1f", 100.0 * off / target);
   result.flags.push_back("panel " + panel.panel + ": pieces add up to " + share + " % more than its area");

@@ -21,11 +21,11 @@ namespace toile {
 struct ChooseSetsOptions {
   double stretch_limit = 0.03;  // mu
   bool l_shapes = false;
-  double excess_price = 2.0;  // jobs, of twice the allowed stretch
-  double near_enough = 1.25;  // times the allowed stretch; what leaves more is not done ...
-  double undone_price = 1.5;  // ... and costs so much, in jobs
-  double open_price = 0.12;   // jobs, of a place where only one ply opens
-  double corner_price = 0.1;  // jobs, of an L where two pieces of cloth meet; where more meet, by the square
+  double excess_price = 2.0;   // jobs, of twice the allowed stretch
+  double near_enough = 1.1;    // times the allowed stretch; what leaves more is not done ...
+  double undone_price = 1.5;   // ... and costs so much, in jobs
+  double open_price = 0.12;    // jobs, of a place where only one ply opens
+  double corner_price = 0.01;  // jobs, of an L where two pieces of cloth meet; where more meet, by the square
 };
 
 // Index of the chosen set per panel; 0 where another panel chooses. `value`: the cost, in jobs.

@@ -2,6 +2,7 @@
 #include "engine/alter/cut_sheet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -236,15 +237,17 @@ bool cut_straight(Sheet& sheet, int start, const Vec2& direction) {
   return true;
 }
 
-bool cut_along_edges(Sheet& sheet, int start, const Vec2& direction, double smoothness) {
+namespace {
+
+// The way of a cut along mesh edges; it ends on the border, or where no edge leads on.
+std::vector<int> way_along_edges(const Sheet& sheet, int start, const Vec2& direction, double smoothness,
+                                 const std::set<int>& border) {
   std::vector<std::set<int>> neighbours(sheet.vertices.size());
   for (const auto& face : sheet.faces)
     for (std::size_t i = 0; i < 3; ++i) {
       neighbours[static_cast<std::size_t>(face[i])].insert(face[(i + 1) % 3]);
       neighbours[static_cast<std::size_t>(face[(i + 1) % 3])].insert(face[i]);
     }
-  std::set<int> border;
-  for (const BorderEdge& edge : border_edges(sheet)) border.insert(edge.from);
   std::vector<int> path = {start};
   std::set<int> visited = {start};
   Vec2 way = direction;
@@ -267,9 +270,23 @@ bool cut_along_edges(Sheet& sheet, int start, const Vec2& direction, double smoo
     visited.insert(best);
     path.push_back(best);
   }
-  if (path.size() < 2 || !border.contains(path.back())) return false;
-  open_path(sheet, path);
-  return true;
+  return path;
+}
+
+}  // namespace
+
+bool cut_along_edges(Sheet& sheet, int start, const Vec2& direction, double smoothness) {
+  std::set<int> border;
+  for (const BorderEdge& edge : border_edges(sheet)) border.insert(edge.from);
+  // A way that keeps too much of where it was going turns into nowhere; then it heeds the wanted direction more.
+  for (int halvings = 0; halvings < 4; ++halvings) {
+    const double share = std::ldexp(smoothness, -halvings);
+    const std::vector<int> path = way_along_edges(sheet, start, direction, share, border);
+    if (path.size() < 2 || !border.contains(path.back())) continue;
+    open_path(sheet, path);
+    return true;
+  }
+  return false;
 }
 
 void zip_from(Sheet& sheet, std::size_t number, std::size_t first) {

@@ -10,7 +10,8 @@
 namespace toile {
 namespace {
 
-constexpr double kProbe = 0.004;  // m, between the places where a line is looked at
+constexpr double kLeastWay = 0.004;  // m: what strain moves by less is below the accuracy of measuring    [ISO20685]
+constexpr double kProbe = 0.004;     // m, between the places where a line is looked at
 
 class Search {
  public:
@@ -144,7 +145,7 @@ class Search {
 
 double share_of_limit(const SheetStress& stress, double limit) {
   const double rms = stress.area > 0.0 ? std::sqrt(0.5 * stress.energy / stress.area) : 0.0;
-  return std::min(stress.p95, 2.0 * rms) / limit;
+  return std::min({stress.p95 / limit, 2.0 * rms / limit, stress.way / kLeastWay});
 }
 
 double farthest_outside(const Sheet& sheet) {

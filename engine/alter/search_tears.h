@@ -32,6 +32,8 @@ double farthest_outside(const Sheet& sheet);
 // What is left over what is allowed; 1: just that. By the strain that a twentieth of the cloth exceeds, or by what all
 // of it adds to the fit's error (rms of both directions) against half the limit, whichever is kinder: round the tips of
 // darts and corners strain is high in little cloth, and no tear helps.
+// Where strain moves the cloth's edges by less than can be measured on bodies, nothing is left: a millimetre strains
+// narrow bands much.
 double share_of_limit(const SheetStress& stress, double limit);
 
 // What farther out than this is no alteration, m.

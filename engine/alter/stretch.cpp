@@ -180,6 +180,15 @@ double Relaxation::sweep() {
   return energy;
 }
 
+Vec2 extent_of(const Sheet& sheet) {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const SheetVertex& vertex : sheet.vertices) {
+    low = low.cwiseMin(vertex.flat);
+    high = high.cwiseMax(vertex.flat);
+  }
+  return high - low;
+}
+
 }  // namespace
 
 Mat2 sheet_gradient(const Sheet& sheet, std::size_t face) {
@@ -211,7 +220,9 @@ void relax(Sheet& sheet, const RelaxOptions& options, Progress* progress, Sparse
 
 SheetStress measure_stress(const Sheet& sheet, double limit) {
   SheetStress stress;
-  std::vector<std::pair<double, double>> tension;  // value, area
+  using Strains = std::vector<std::pair<double, double>>;  // value, area
+  Strains tension;
+  std::array<Strains, 2> along;  // weft, warp
   for (std::size_t f = 0; f < sheet.faces.size(); ++f) {
     if (sheet.folded[f]) continue;
     const double area = 0.5 * edges_to(sheet, sheet.faces[f], &SheetVertex::flat).determinant();
@@ -220,16 +231,20 @@ SheetStress measure_stress(const Sheet& sheet, double limit) {
     stress.energy += area * (now - fibre_projection(now, length)).squaredNorm();
     stress.area += area;
     tension.emplace_back(now.colwise().norm().maxCoeff() - 1.0, area);
+    for (int k = 0; k < 2; ++k) along[static_cast<std::size_t>(k)].emplace_back(now.col(k).norm() - 1.0, area);
   }
-  std::sort(tension.begin(), tension.end());
-  const auto percentile = [&](double share) {
+  const auto percentile = [&](Strains& strains, double share) {
+    std::sort(strains.begin(), strains.end());
     double below = 0.0;
-    for (const auto& [value, area] : tension)
+    for (const auto& [value, area] : strains)
       if ((below += area) >= share * stress.area) return value;
     return 0.0;
   };
-  stress.p95 = percentile(0.95);
-  stress.p98 = percentile(0.98);
+  stress.p95 = percentile(tension, 0.95);
+  stress.p98 = percentile(tension, 0.98);
+  const Vec2 extent = extent_of(sheet);
+  for (int k = 0; k < 2; ++k)
+    stress.way = std::max(stress.way, extent[k] * percentile(along[static_cast<std::size_t>(k)], 0.95));
   for (const auto& [value, area] : tension)
     if (value > limit) stress.over += area;
   if (stress.area > 0.0) stress.over /= stress.area;

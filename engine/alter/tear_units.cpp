@@ -239,8 +239,6 @@ class CutMaker {
     for (const TearMouth& mouth : mouths)
       if (crosses_wedge(sheet, vertex.flat, sheet.cloth_sides[static_cast<std::size_t>(mouth.side)].point(mouth.at)))
         return;
-    for (const TearMouth& mouth : mouths)
-      if (sheet.sides[static_cast<std::size_t>(mouth.side)].locked) return;
     any = true;
     known_.push_back({panel, job, mouths});
     add_unit(tear, job);

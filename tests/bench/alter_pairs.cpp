@@ -89,12 +89,17 @@ AlterFit fit_of(const DerivedGarment& derived, const AlterPatternResult& result,
   fit.stretch_before = compare_fits(mesh, derived.reference.fit, derived.fit_before).whole.rms_stretch;
   fit.stretch_ideal = compare_fits(mesh, derived.reference.fit, derived.derived.fit).whole.rms_stretch;
   fit.position_ideal = compare_positions(derived.transported.drape.nodes, derived.derived.drape.drape.nodes).rms;
-  const DrapedAlteration after = drape_altered(result.sewn, mesh, derived.reference.fit, derived.derived,
-                                               derived.target_body, drape_options_of(options));
+  const auto drape_beside = [&](const DerivedPattern& wanted) {
+    return drape_altered(result.sewn, mesh, derived.reference.fit, wanted, derived.target_body,
+                         drape_options_of(options));
+  };
+  const DrapedAlteration after = drape_beside(derived.derived);
   fit.problem = after.problem;
   if (!fit.problem.empty()) return fit;
   fit.stretch_after = compare_fits(after.mesh, after.reference, after.fit).whole.rms_stretch;
-  fit.position_off = after.position.rms;
+  DerivedPattern carried = derived.derived;
+  carried.drape.drape.nodes = derived.transported.drape.nodes;
+  fit.position_after = drape_beside(carried).position.rms;
   return fit;
 }
 

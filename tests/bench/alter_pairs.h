@@ -33,8 +33,8 @@ AlterOutcome outcome_of(const AlterPatternResult& result);
 struct AlterFit {
   std::string problem;                                                    // why it could not be draped, or empty
   double stretch_before = 0.0, stretch_ideal = 0.0, stretch_after = 0.0;  // rms error
-  double position_ideal = 0.0;                                            // m, of the target pattern's drape
-  double position_off = 0.0;                                              // m, of the altered garment from that drape
+  // m, rms from where the reference's drape is carried to on the target body
+  double position_ideal = 0.0, position_after = 0.0;
 };
 AlterFit fit_of(const DerivedGarment& derived, const AlterPatternResult& result, const AlterOptions& options);
 

@@ -204,7 +204,7 @@ TEST(SewnPipeline, TheDrawingShowsThePiecesOfTheDocument) {
         EXPECT_LT((piece.notches[n].at - wanted.notches[n].at).norm(), kSame);
       ++compared;
     }
-  EXPECT_EQ(compared, 6);
+  EXPECT_EQ(compared, 8);  // of each panel the kept piece, a strip at either side and one at the hem
 }
 
 // Both numbers of "118 mm per ply (237 mm in all)", or one of them twice.

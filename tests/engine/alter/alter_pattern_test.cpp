@@ -40,6 +40,11 @@ Map scaled(double wide, double tall) {
   return [=](int, const Vec2& p) { return Vec2(wide * p.x(), tall * p.y()); };
 }
 
+GridGarment with_locked_sides(GridGarment garment, const std::vector<int>& edges) {
+  for (const int edge : edges) garment.pattern.panels[0].edges[static_cast<std::size_t>(edge)].locked = true;
+  return garment;
+}
+
 TEST(AlterPattern, DoesNothingWhenTheTargetIsTheReference) {
   const AlterPatternResult result = alter(sheet(), scaled(1, 1));
   expect_areas(result, {0, 0}, 0.0);
@@ -79,6 +84,22 @@ TEST(AlterPattern, Case11FindsADart) {
   expect_areas(result, {0, 100}, 2);
 }
 
+// Straight down to 40 cm above the hem, then wider: the cut from the hem ends where the gore does.
+TEST(AlterPattern, Case12EndsTheCutWhereTheGoreEnds) {
+  const auto gore = [](int, const Vec2& p) {
+    return Vec2(0.2 + (p.x() - 0.2) * (0.4 + 0.12 * std::max(0.0, (0.4 - p.y()) / 0.4)) / 0.4, p.y());
+  };
+  for (const bool along_edges : {false, true}) {
+    AlterPatternOptions options;
+    options.mesh_edge_cuts = along_edges;
+    const AlterPatternResult result = alter(with_locked_sides(sheet(), {1, 2, 3}), gore, options);
+    ASSERT_EQ(result.panels[0].cut_lines.size(), 1u);
+    const auto& line = result.panels[0].cut_lines[0];
+    EXPECT_NEAR(std::max(line.front().y(), line.back().y()), 0.4, 2 * 0.02);
+    EXPECT_NEAR(result.inserted_area * kPerCm2, 240, 10);
+  }
+}
+
 TEST(AlterPattern, Case13OpensBothPliesOfASeam) {
   const GridGarment two =
       grid_garment({{"left", 0.4, 0.6, 20, 30, 0.2}, {"right", 0.4, 0.6, 20, 30, 0.2}}, {{0, 1, 1, 3}});
@@ -88,11 +109,6 @@ TEST(AlterPattern, Case13OpensBothPliesOfASeam) {
     ASSERT_EQ(panel.insertions.size(), 1u);
     EXPECT_NEAR(panel.insertions[0].area * kPerCm2, 480, 1);
   }
-}
-
-GridGarment with_locked_sides(GridGarment garment, const std::vector<int>& edges) {
-  for (const int edge : edges) garment.pattern.panels[0].edges[static_cast<std::size_t>(edge)].locked = true;
-  return garment;
 }
 
 GridGarment on_the_mid_plane(GridGarment garment) {
@@ -165,6 +181,27 @@ TEST(AlterPattern, SymmetryWidensBothSidesAlike) {
   EXPECT_EQ(both.ticket.operations.size(), 1u);
   options.symmetric = false;
   EXPECT_EQ(alter(garment, scaled(1.2, 1), options).panels[0].insertions.size(), 1u);
+}
+
+TEST(AlterPattern, TheSymmetryPlaneSaysWhatIsTheMiddle) {
+  GridGarment garment = sheet(0.02, 0.0);
+  garment.pattern.panels[0].translation = {0.1, 0, 0};
+  EXPECT_EQ(alter(garment, scaled(1.2, 1)).panels[0].insertions.size(), 1u);
+  garment.pattern.symmetry = Pattern::Symmetry::Plane;
+  garment.pattern.symmetry_plane = {1, 0, 0, 0.3};
+  EXPECT_EQ(alter(garment, scaled(1.2, 1)).panels[0].insertions.size(), 2u);
+}
+
+TEST(AlterPattern, AHigherAllowedStretchNeverNeedsMoreOperations) {
+  std::size_t before = 1000;
+  for (const double mu : {0.01, 0.03, 0.05, 0.1, 0.25}) {
+    AlterPatternOptions options;
+    options.stretch_limit = mu;
+    const std::size_t operations = alter(sheet(), scaled(1.2, 1.04), options).ticket.operations.size();
+    EXPECT_LE(operations, before) << mu;
+    before = operations;
+  }
+  EXPECT_EQ(before, 0u);
 }
 
 TEST(AlterPattern, LShapesStayWhole) {
