@@ -8,6 +8,7 @@
 #include "engine/sim/membrane.h"
 #include "engine/sim/position_based.h"
 #include "engine/sim/relax.h"
+#include "tests/support/ledger/ledger.h"
 #include "tests/support/tubes.h"
 
 namespace toile {

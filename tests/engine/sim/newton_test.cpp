@@ -5,6 +5,7 @@
 
 #include "engine/core/units.h"
 #include "engine/sim/relax.h"
+#include "tests/support/ledger/ledger.h"
 #include "tests/support/tubes.h"
 
 namespace toile {
