@@ -31,7 +31,7 @@ void check_balance(const AlterPatternResult& altered, double stretch_limit, Outc
   double balance = 0.0, target = 0.0;
   for (const PanelAlteration& panel : altered.panels) {
     const double original = polygon_area(panel.original), wanted = polygon_area(panel.target),
-                 in = area_of(panel.insertions, outcome), out = area_of(panel.removals, outcome);
+                 in = area_of(panel.insertions, outcome), out = area_of(panel.removals, outcome) + panel.cut_back;
     balance += original + in - out - wanted;
     target += wanted;
     if (!(std::abs(original + in - out - wanted) <= (2 * stretch_limit + kCrumbs) * wanted + 1e-4) && !told)
