@@ -27,10 +27,12 @@ void archive(A& a, BodyLevels& v) {
 }
 template <class A>
 void archive(A& a, DrapeOptions& v) {
-  auto& [friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, lift, drafted_for,
-         keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, self_contact, first_rung] = v;
-  a(friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, lift, drafted_for,
-    keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, self_contact, first_rung);
+  auto& [friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, stop_settled, lift,
+         drafted_for, pin_openings, keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, self_contact,
+         first_rung] = v;
+  a(friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, stop_settled, lift,
+    drafted_for, pin_openings, keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, self_contact,
+    first_rung);
 }
 template <class A>
 void archive(A& a, DrapeFinding& v) {

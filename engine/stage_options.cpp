@@ -13,6 +13,7 @@ DrapeOptions drape_options_of(const AlterOptions& options) {
   DrapeOptions drape;
   drape.solver = options.solver;
   drape.self_contact = options.self_contact;
+  drape.pin_openings = options.pin_extremities;
   drape.fibre_slack = options.fibre_slack;
   drape.shear_limit_deg = options.shear_limit_deg;
   return drape;

@@ -8,6 +8,10 @@
 
 namespace toile {
 
+double SignedField::evaluate_again(const Vec3& p, double reach, Vec3& gradient, std::int32_t&) {
+  return evaluate(p, reach, gradient);
+}
+
 Mat3 SignedField::hessian(const Vec3& p) {
   constexpr double kStep = 1e-6, kEverywhere = 1e6;  // m
   Mat3 result;
@@ -51,6 +55,7 @@ constexpr int kBlock = 4;  // nodes of a block along each axis: memory is taken 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr int kBlockNodes = kBlock * kBlock * kBlock;
 constexpr std::int64_t kMostColumns = 4'000'000, kMostBlocks = 40'000'000;
+constexpr int kMostNodes = std::numeric_limits<std::int16_t>::max();  // along an axis
 
 // Heights at which vertical (z) lattice lines cross the surface, line by line.
 class Crossings {
@@ -133,6 +138,45 @@ struct CoarseLattice {
   }
 };
 
+// Lattice values round one node, what the spline needs there, in two cache lines: evaluating it waits for memory most.
+struct alignas(64) SplineCell {
+  using Row = Eigen::Array4d;
+  std::array<float, 28> value;         // rows of three along x, then y, then z, and a zero
+  std::array<std::int16_t, 3> centre;  // the node's index
+
+  Row row(int j, int k) const {  // and one value more
+    return Eigen::Map<const Eigen::Array4f>(value.data() + 3 * (3 * k + j)).cast<double>();
+  }
+
+  // Quadratic B-spline at `t` from the cell's node and its slope, both in lattice spacings.
+  double evaluate(const Vec3& t, Vec3& slope) const {
+    Row w[3], dw[3];  // weights and derivatives along each axis
+    for (int d = 0; d < 3; ++d) {
+      w[d] << 0.5 * (0.5 - t[d]) * (0.5 - t[d]), 0.75 - t[d] * t[d], 0.5 * (0.5 + t[d]) * (0.5 + t[d]), 0;
+      dw[d] << t[d] - 0.5, -2 * t[d], t[d] + 0.5, 0;
+    }
+    Row in = Row::Zero(), in_y = Row::Zero(), in_z = Row::Zero();
+    for (int k = 0; k < 3; ++k) {
+      Row sum = Row::Zero(), dsum = Row::Zero();
+      for (int j = 0; j < 3; ++j) {
+        const Row values = row(j, k);
+        sum += w[1][j] * values;
+        dsum += dw[1][j] * values;
+      }
+      in += w[2][k] * sum;
+      in_y += w[2][k] * dsum;
+      in_z += dw[2][k] * sum;
+    }
+    slope = Vec3((dw[0] * in).sum(), (w[0] * in_y).sum(), (w[0] * in_z).sum());
+    return (w[0] * in).sum();
+  }
+};
+
+// Nearest lattice index along every axis.
+Eigen::Vector3i nearest_index(const Vec3& q) {
+  return (q.array() + 0.5).floor().max(-1.0).min(1e9).cast<int>();
+}
+
 struct SurfaceField::State {
   SurfaceTree tree;
   double h = 0, inverse_h = 0;
@@ -141,6 +185,8 @@ struct SurfaceField::State {
   std::unique_ptr<Crossings> crossings;
   std::vector<std::int32_t> block_slot;  // dense; -1 not touched, else number in `values`
   std::vector<std::array<float, kBlockNodes>> values;
+  std::vector<std::array<std::int32_t, kBlockNodes>> cell_slot;  // beside `values`; -1 no cell there, else its number
+  std::vector<SplineCell> cells;
   std::vector<CoarseLattice> coarse;  // from the coarsest down
   int computed = 0;
   int start = -1;  // triangle of the last query, to begin the next one with
@@ -150,21 +196,56 @@ struct SurfaceField::State {
   }
 
   float lattice(int x, int y, int z) {
-    float& node = block(x / kBlock, y / kBlock, z / kBlock)[((z % kBlock) * kBlock + y % kBlock) * kBlock + x % kBlock];
+    float& node = values[block(x, y, z)][within(x, y, z)];
     if (std::isnan(node)) node = node_value(x, y, z);
     return node;
   }
 
-  float* block(int bx, int by, int bz) {
-    const std::size_t at =
-        (static_cast<std::size_t>(bz) * static_cast<std::size_t>(blocks.y()) + static_cast<std::size_t>(by)) *
-            static_cast<std::size_t>(blocks.x()) +
-        static_cast<std::size_t>(bx);
-    if (block_slot[at] < 0) {
-      block_slot[at] = static_cast<std::int32_t>(values.size());
+  std::size_t block_of(int x, int y, int z) const {
+    return (static_cast<std::size_t>(z / kBlock) * static_cast<std::size_t>(blocks.y()) +
+            static_cast<std::size_t>(y / kBlock)) *
+               static_cast<std::size_t>(blocks.x()) +
+           static_cast<std::size_t>(x / kBlock);
+  }
+  static std::size_t within(int x, int y, int z) {
+    return static_cast<std::size_t>(((z % kBlock) * kBlock + y % kBlock) * kBlock + x % kBlock);
+  }
+
+  // Number of the block that holds a node.
+  std::size_t block(int x, int y, int z) {
+    std::int32_t& slot = block_slot[block_of(x, y, z)];
+    if (slot < 0) {
+      slot = static_cast<std::int32_t>(values.size());
       values.emplace_back().fill(kUnknown);
+      cell_slot.emplace_back().fill(-1);
     }
-    return values[static_cast<std::size_t>(block_slot[at])].data();
+    return static_cast<std::size_t>(slot);
+  }
+
+  // Number of the cell round a node if it has been visited before, else -1.
+  std::int32_t known_cell(const Eigen::Vector3i& c) const {
+    const std::int32_t slot = block_slot[block_of(c.x(), c.y(), c.z())];
+    return slot < 0 ? -1 : cell_slot[static_cast<std::size_t>(slot)][within(c.x(), c.y(), c.z())];
+  }
+
+  std::int32_t new_cell(const Eigen::Vector3i& c) {
+    const auto number = static_cast<std::int32_t>(cells.size());
+    cell_slot[block(c.x(), c.y(), c.z())][within(c.x(), c.y(), c.z())] = number;
+    SplineCell cell{
+        {}, {static_cast<std::int16_t>(c.x()), static_cast<std::int16_t>(c.y()), static_cast<std::int16_t>(c.z())}};
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
+          cell.value[static_cast<std::size_t>(3 * (3 * k + j) + i)] =
+              lattice(c.x() - 1 + i, c.y() - 1 + j, c.z() - 1 + k);
+    cells.push_back(cell);
+    return number;
+  }
+
+  bool is_cell(std::int32_t number, const Eigen::Vector3i& c) const {
+    if (static_cast<std::size_t>(number) >= cells.size()) return false;
+    const auto& at = cells[static_cast<std::size_t>(number)].centre;
+    return at[0] == c.x() && at[1] == c.y() && at[2] == c.z();
   }
 
   // Signed distance at lattice node (x, y, z). The last answer is near the next question: it starts the search.
@@ -180,7 +261,7 @@ struct SurfaceField::State {
   double far_bound(const Vec3& p, double enough) {
     double bound = -std::numeric_limits<double>::infinity();
     for (CoarseLattice& level : coarse) {
-      Eigen::Vector3i c = ((p - origin) / level.spacing).array().round().cast<int>();
+      Eigen::Vector3i c = nearest_index((p - origin) / level.spacing);
       c = c.cwiseMax(0).cwiseMin(level.count - Eigen::Vector3i::Ones());
       const Vec3 node = origin + level.spacing * c.cast<double>();
       const double slack = (p - node).norm() + 1e-6;
@@ -213,7 +294,7 @@ SurfaceField::SurfaceField(const Points3& vertices, const Triangles& triangles, 
   s.nodes = s.blocks * kBlock;
   const std::int64_t columns = static_cast<std::int64_t>(s.nodes.x()) * s.nodes.y();
   const std::int64_t blocks = static_cast<std::int64_t>(s.blocks.x()) * s.blocks.y() * s.blocks.z();
-  if (columns > kMostColumns || blocks > kMostBlocks)
+  if (s.nodes.maxCoeff() > kMostNodes || columns > kMostColumns || blocks > kMostBlocks)
     throw Error(ErrorCode::LimitExceeded, "body",
                 "the body is too large for a distance field of this spacing; check its unit (metres expected)");
   for (const double spacing : options.coarse_spacings) {
@@ -235,55 +316,47 @@ const SurfaceTree& SurfaceField::tree() const {
 }
 
 double SurfaceField::evaluate(const Vec3& p, double reach, Vec3& gradient) {
-  State& s = *state_;
-  // The spline may lie below the true distance in creases, by less than half a cell: without that margin its value
-  // would jump where a bound takes over, and a line search would stall there.
-  const double far = reach + 0.5 * s.h, bound = s.far_bound(p, far);
-  if (bound > far) return bound;
+  std::int32_t hint = -1;
+  return evaluate_again(p, reach, gradient, hint);
+}
 
+double SurfaceField::evaluate_again(const Vec3& p, double reach, Vec3& gradient, std::int32_t& hint) {
+  State& s = *state_;
   const Vec3 q = (p - s.origin) * s.inverse_h;
-  Eigen::Vector3i centre = q.array().round().cast<int>();
-  if (!s.has_cell(centre)) {
-    const SurfacePoint near = s.tree.closest_point(p);  // outside the lattice with a reach beyond its margin
-    gradient = (p - near.point).normalized();
-    return near.distance();
-  }
-  std::array<double, 3> w[3], dw[3];  // B-spline weights and derivatives along each axis
-  for (int d = 0; d < 3; ++d) {
-    const double t = q[d] - centre[d];
-    w[d] = {0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)};
-    dw[d] = {t - 0.5, -2 * t, t + 0.5};
-  }
-  double value = 0;
-  Vec3 slope = Vec3::Zero();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const int z = centre.z() - 1 + static_cast<int>(k);
-    for (std::size_t j = 0; j < 3; ++j) {
-      const int y = centre.y() - 1 + static_cast<int>(j);
-      double sum = 0, dsum = 0;
-      float* row = nullptr;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const int x = centre.x() - 1 + static_cast<int>(i);
-        if (i == 0 || x % kBlock == 0)
-          row = s.block(x / kBlock, y / kBlock, z / kBlock) + ((z % kBlock) * kBlock + y % kBlock) * kBlock;
-        float& node = row[x % kBlock];
-        if (std::isnan(node)) node = s.node_value(x, y, z);
-        const auto v = static_cast<double>(node);
-        sum += w[0][i] * v;
-        dsum += dw[0][i] * v;
+  const Eigen::Vector3i centre = nearest_index(q);
+  if (!s.is_cell(hint, centre)) {
+    const bool in_lattice = s.has_cell(centre);
+    const std::int32_t known = in_lattice ? s.known_cell(centre) : -1;
+    if (known < 0) {
+      // The spline may lie below the true distance in creases, by less than half a cell: without that margin its value
+      // would jump where a bound takes over, and a line search would stall there.
+      const double far = reach + 0.5 * s.h, bound = s.far_bound(p, far);
+      if (bound > far) return bound;
+      if (!in_lattice) {
+        const SurfacePoint near = s.tree.closest_point(p);  // outside the lattice with a reach beyond its margin
+        gradient = (p - near.point).normalized();
+        return near.distance();
       }
-      value += w[2][k] * w[1][j] * sum;
-      slope += Vec3(w[2][k] * w[1][j] * dsum, w[2][k] * dw[1][j] * sum, dw[2][k] * w[1][j] * sum);
     }
+    hint = known < 0 ? s.new_cell(centre) : known;
   }
-  gradient = slope * s.inverse_h;
+  const double value = s.cells[static_cast<std::size_t>(hint)].evaluate(q - centre.cast<double>(), gradient);
+  gradient *= s.inverse_h;
   return value;
+}
+
+void SurfaceField::prepare(std::int32_t hint) const {
+  const std::vector<SplineCell>& cells = state_->cells;
+  if (static_cast<std::size_t>(hint) >= cells.size()) return;
+  const auto* line = reinterpret_cast<const char*>(&cells[static_cast<std::size_t>(hint)]);
+  __builtin_prefetch(line);
+  __builtin_prefetch(line + 64);
 }
 
 Mat3 SurfaceField::hessian(const Vec3& p) {
   State& s = *state_;
   const Vec3 q = (p - s.origin) * s.inverse_h;
-  const Eigen::Vector3i centre = q.array().round().cast<int>();
+  const Eigen::Vector3i centre = nearest_index(q);
   if (!s.has_cell(centre)) return SignedField::hessian(p);
   std::array<Vec3, 3> w[3];  // along each axis, of each node: B-spline weight, its first and second derivative
   for (std::size_t d = 0; d < 3; ++d) {

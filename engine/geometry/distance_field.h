@@ -19,6 +19,12 @@ class SignedField {
   // (a lower bound > reach), with an undefined gradient.
   virtual double evaluate(const Vec3& p, double reach, Vec3& gradient) = 0;
 
+  // The same for a point that is asked for again and again while it moves little. `hint` is its memory, 0 at first and
+  // only of use to this field; the answer does not depend on it.
+  virtual double evaluate_again(const Vec3& p, double reach, Vec3& gradient, std::int32_t& hint);
+  // That point will be asked for soon: its memory may be fetched.
+  virtual void prepare(std::int32_t) const {}
+
   // Second derivatives at p, 1/m, where evaluate() gives the distance itself. Here by central differences of the
   // gradient, good to about 1e-6 of their size.
   virtual Mat3 hessian(const Vec3& p);
@@ -62,6 +68,8 @@ class SurfaceField : public SignedField {
   ~SurfaceField() override;
 
   double evaluate(const Vec3& p, double reach, Vec3& gradient) override;
+  double evaluate_again(const Vec3& p, double reach, Vec3& gradient, std::int32_t& hint) override;
+  void prepare(std::int32_t hint) const override;
   Mat3 hessian(const Vec3& p) override;  // of the spline: exact, and constant along each axis within a cell
 
   int lattice_nodes_computed() const;

@@ -8,6 +8,7 @@ namespace toile {
 namespace {
 
 constexpr double kLeastSlope = 1e-12;  // of a field's gradient: it vanishes on the medial axis
+constexpr std::size_t kAhead = 8;      // nodes: memory takes as long as these
 
 }  // namespace
 
@@ -32,6 +33,7 @@ Contact::Contact(const Cloth& cloth, SignedField& field, const ContactOptions& o
       distance_(Eigen::VectorXd::Zero(cloth.node_count)),
       looked_up_at_(Points3::Zero(cloth.node_count, 3)),
       known_(static_cast<std::size_t>(cloth.node_count), false),
+      hint_(static_cast<std::size_t>(cloth.node_count), 0),
       taken_up_(Eigen::VectorXd::Zero(cloth.node_count)),
       load_(Eigen::VectorXd::Zero(cloth.node_count)),
       anchor_(Points3::Zero(cloth.node_count, 3)),
@@ -42,7 +44,7 @@ bool Contact::near(Eigen::Index i, const Vec3& p, Vec3& normal) {
   const double clear = distance_[i] - t;
   const Vec3 last = looked_up_at_.row(i);
   if (known_[static_cast<std::size_t>(i)] && clear > 0 && (p - last).squaredNorm() < clear * clear) return false;
-  distance_[i] = field_.evaluate(p, t, normal);
+  distance_[i] = field_.evaluate_again(p, t, normal, hint_[static_cast<std::size_t>(i)]);
   looked_up_at_.row(i) = p.transpose();
   known_[static_cast<std::size_t>(i)] = true;
   return distance_[i] < t;
@@ -51,6 +53,8 @@ bool Contact::near(Eigen::Index i, const Vec3& p, Vec3& normal) {
 double Contact::energy_gradient(const Points3& nodes, Points3& gradient) {
   double energy = 0;
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
+    if (const std::size_t ahead = static_cast<std::size_t>(i) + kAhead; ahead < hint_.size())
+      field_.prepare(hint_[ahead]);
     const Vec3 p = nodes.row(i);
     Vec3 normal;
     if (near(i, p, normal)) {

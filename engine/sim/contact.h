@@ -67,9 +67,10 @@ class Contact {
   const Cloth& cloth_;
   SignedField& field_;
   ContactOptions options_;
-  Eigen::VectorXd distance_;  // #N
-  Points3 looked_up_at_;      // #N x 3, where distance_ was taken
-  std::vector<bool> known_;   // #N
+  Eigen::VectorXd distance_;        // #N
+  Points3 looked_up_at_;            // #N x 3, where distance_ was taken
+  std::vector<bool> known_;         // #N
+  std::vector<std::int32_t> hint_;  // #N, of the field
 
   Eigen::VectorXd taken_up_;  // #N, depth whose force is applied without any depth; only with multipliers, m
   bool frozen_ = false;

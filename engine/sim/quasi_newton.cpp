@@ -14,14 +14,18 @@ constexpr double kLeastCurvature = 1e-12;
 double dot(const Points3& a, const Points3& b) {
   return a.cwiseProduct(b).sum();
 }
+template <class Pairs>
+double dot(const Pairs& a, const Points3& b) {
+  return a.template cast<double>().cwiseProduct(b).sum();
+}
 
 }  // namespace
 
 QuasiNewton::QuasiNewton(int node_count, const QuasiNewtonOptions& options) : options_(options) {
   const auto m = static_cast<std::size_t>(options.memory);
   for (Points3* p : {&nodes_, &gradient_, &trial_, &trial_gradient_, &direction_, &right_}) p->setZero(node_count, 3);
-  moves_.assign(m, direction_);
-  changes_.assign(m, direction_);
+  moves_.assign(m, Pairs::Zero(node_count, 3));
+  changes_.assign(m, Pairs::Zero(node_count, 3));
   inverse_curvature_.assign(m, 0.0);
   weight_.assign(m, 0.0);
 }
@@ -43,14 +47,14 @@ void QuasiNewton::find_direction(RowSolver& matrix) {
   for (int k = count_ - 1; k >= 0; --k) {
     const std::size_t s = slot(k);
     weight_[s] = inverse_curvature_[s] * dot(moves_[s], direction_);
-    direction_ -= weight_[s] * changes_[s];
+    direction_ -= weight_[s] * changes_[s].cast<double>();
   }
   std::swap(direction_, right_);
   matrix.solve(right_, direction_);
   for (int k = 0; k < count_; ++k) {
     const std::size_t s = slot(k);
     const double correction = weight_[s] - inverse_curvature_[s] * dot(changes_[s], direction_);
-    direction_ += correction * moves_[s];
+    direction_ += correction * moves_[s].cast<double>();
   }
 }
 
@@ -79,10 +83,11 @@ bool QuasiNewton::search_line(const Energy& energy) {
 
 void QuasiNewton::remember() {
   const auto s = static_cast<std::size_t>((first_ + count_) % options_.memory);
-  moves_[s] = trial_ - nodes_;
-  changes_[s] = trial_gradient_ - gradient_;
-  const double curvature = dot(moves_[s], changes_[s]);
-  if (!(curvature > kLeastCurvature * moves_[s].norm() * changes_[s].norm())) return;
+  moves_[s] = (trial_ - nodes_).cast<float>();
+  changes_[s] = (trial_gradient_ - gradient_).cast<float>();
+  const double curvature = moves_[s].cast<double>().cwiseProduct(changes_[s].cast<double>()).sum();
+  const double size = static_cast<double>(moves_[s].norm()) * static_cast<double>(changes_[s].norm());
+  if (!(curvature > kLeastCurvature * size)) return;
   inverse_curvature_[s] = 1 / curvature;
   if (count_ < options_.memory)
     ++count_;

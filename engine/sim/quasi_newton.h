@@ -50,8 +50,11 @@ class QuasiNewton {
 
   QuasiNewtonOptions options_;
   Limit limit_;
+  // Pairs are kept in single precision: they only shape the steps, and reading them is much of a step's cost.
+  using Pairs = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
   Points3 nodes_, gradient_, trial_, trial_gradient_, direction_, right_;
-  std::vector<Points3> moves_, changes_;
+  std::vector<Pairs> moves_, changes_;
   std::vector<double> inverse_curvature_, weight_;
   int first_ = 0, count_ = 0;  // of the ring of pairs
   double energy_ = 0;

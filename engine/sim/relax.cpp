@@ -78,7 +78,9 @@ class Relaxation {
   }
 
  private:
-  bool done() const { return result_.converged || result_.stalled || (options_.stop_settled && result_.settled); }
+  bool done() const {
+    return result_.converged || result_.stalled || (result_.settled && result_.residual < options_.stop_settled);
+  }
 
   // Iterations with friction as it stands; false if the residual was reached before the round was over.
   bool run_round(QuasiNewton& minimiser, const QuasiNewton::Energy& evaluate, Progress* progress) {

@@ -17,7 +17,7 @@ struct RelaxOptions {
   double stop_residual = 0.3;     // of a mean node weight (DrapeEnergy::residual), with friction just frozen
   double settled_residual = 3.0;  // below it and without movement the drape counts as settled
   double settled_move = 0.001;    // m a watched line may move over a round and still count as settled
-  bool stop_settled = false;      // stop there
+  double stop_settled = 0.0;      // residual below which a drape that has settled is left at that; 0: never
   int least_iterations = 300;     // before it may count as settled: below, even placement is not settled
   std::vector<std::vector<int>> watched;  // lines of nodes whose mean position tells whether the garment still moves
   QuasiNewtonOptions quasi_newton;

@@ -24,7 +24,8 @@ class SewingSolver {
         u_(start),
         gradient_(start),
         right_(start.rows(), 3),
-        solution_(start.rows(), 3) {
+        solution_(start.rows(), 3),
+        hint_(static_cast<std::size_t>(start.rows()), 0) {
     u_.setZero();
     push_all_out();
   }
@@ -49,7 +50,7 @@ class SewingSolver {
     x_ += solution_;
     for (Eigen::Index i = 0; i < x_.rows(); ++i) {
       const Vec3 q = relaxation * x_.row(i) + (1 - relaxation) * z_.row(i);
-      const Vec3 pushed = push_out(q + u_.row(i).transpose());
+      const Vec3 pushed = push_out(q + u_.row(i).transpose(), hint_[static_cast<std::size_t>(i)]);
       u_.row(i) += (q - pushed).transpose();
       z_.row(i) = pushed.transpose();
     }
@@ -60,17 +61,18 @@ class SewingSolver {
   void set_thickness(double thickness) { thickness_ = thickness; }
 
  private:
-  Vec3 push_out(Vec3 p) {
+  Vec3 push_out(Vec3 p, std::int32_t& hint) {
     for (int k = 0; k < options_.push_steps; ++k) {
       Vec3 normal;
-      const double depth = thickness_ - field_.evaluate(p, thickness_, normal);
+      const double depth = thickness_ - field_.evaluate_again(p, thickness_, normal, hint);
       if (depth <= 0) break;
       p += std::min(depth, options_.push_cap) * normal / std::max(normal.norm(), 0.1);
     }
     return p;
   }
   void push_all_out() {
-    for (Eigen::Index i = 0; i < z_.rows(); ++i) z_.row(i) = push_out(z_.row(i)).transpose();
+    for (Eigen::Index i = 0; i < z_.rows(); ++i)
+      z_.row(i) = push_out(z_.row(i), hint_[static_cast<std::size_t>(i)]).transpose();
   }
 
   DrapeEnergy& energy_;
@@ -79,6 +81,7 @@ class SewingSolver {
   const SewingOptions& options_;
   RowSolver solver_;
   Points3 x_, z_, u_, gradient_, right_, solution_;
+  std::vector<std::int32_t> hint_;  // #N, of the field
   Eigen::VectorXd weight_;
 };
 

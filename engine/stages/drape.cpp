@@ -21,6 +21,12 @@ constexpr int kLastRung = 2;
 constexpr double kMoreLift = 0.03, kGrowth = 0.025;  // m
 constexpr SewingStage kFirmStage{10000, 1.0, 40};
 
+constexpr double kUsualTension = 1000;  // N/m, of the cloth that the default contact stiffness suits
+
+constexpr int kPairs = 5;  // of the minimiser: 4 to 20 need as many iterations on garments, and fewer fit the cache
+
+constexpr double kPinShare = 50;  // stiffness of a pin over that of contact: 1 N/m of tension moves it by 0.2 mm
+
 void check_options(const DrapeOptions& o) {
   const auto check = [](bool good, const char* name, const char* range) {
     if (!good)
@@ -34,6 +40,7 @@ void check_options(const DrapeOptions& o) {
   check(o.contact_stiffness > 0, "contact_stiffness", "positive");
   check(o.iterations >= 0 && o.iterations <= 100000, "iterations", "0 to 100000");
   check(o.stop_residual > 0, "stop_residual", "positive");
+  check(o.stop_settled >= 0, "stop_settled", "0 or positive");
   check(o.fibre_slack >= 0 && o.fibre_slack <= 0.2, "fibre_slack", "0 to 0.2");
   check(o.shear_limit_deg >= 0 && o.shear_limit_deg <= 45, "shear_limit_deg", "0 to 45");
   check(o.lift >= 0 && o.lift <= 0.1, "lift", "0 to 0.1 m");
@@ -75,6 +82,8 @@ class Draper {
     levels_are_own_ = true;
     prepare(vertices);
     if (!result_.diagnostics.bodice) hold_waist(start);
+    if (options_.pin_openings)
+      for (const std::vector<int>& line : free_lines(pattern_, mesh_)) pin(line, start);
     finish(start);
     for (const DrapeFinding& finding : result_.diagnostics.findings)
       if (finding.name == "not_finite") throw Error(ErrorCode::DrapeFailed, "garment", finding.message);
@@ -104,6 +113,7 @@ class Draper {
     const Points3 start = body_.skeleton ? arranged(rung == 1 ? options_.lift + kMoreLift : options_.lift)
                                          : welded(mesh_, placed_vertices(pattern_, mesh_));
     holds_.clear();
+    pins_.clear();
     if (!result_.diagnostics.bodice) hold_waist(start);
     DrapeEnergy energy(cloth_, nullptr, 0.0);
     energy.holds = holds_;
@@ -131,7 +141,22 @@ class Draper {
     result_.diagnostics.hold_height = height;
   }
 
+  void pin(const std::vector<int>& nodes, const Points3& start) {
+    for (int n : nodes)
+      pins_.push_back({n, start.row(n), kPinShare * options_.contact_stiffness * cloth_.node_area[n]});
+  }
+
+  void pin_as_the_pattern_says(const Points3& start) {
+    for (const SeamSide& side : pattern_.pins) {
+      std::vector<int> nodes;
+      for (int v : mesh_.edge_vertices[static_cast<std::size_t>(side.panel.value)][static_cast<std::size_t>(side.edge)])
+        nodes.push_back(mesh_.node_of_vertex[static_cast<std::size_t>(v)]);
+      pin(nodes, start);
+    }
+  }
+
   void finish(const Points3& start) {
+    pin_as_the_pattern_says(start);
     if (options_.keep_drape)
       result_.drape.nodes = start;
     else
@@ -151,11 +176,12 @@ class Draper {
     report(progress_, "drape", 0);
     ContactOptions contact_options;
     contact_options.thickness = thickness_;
-    contact_options.stiffness = options_.contact_stiffness;
+    contact_options.stiffness = contact_stiffness();
     contact_options.friction = options_.friction;
     Contact contact(cloth_, *field_, contact_options);
     DrapeEnergy energy(cloth_, &contact, options_.gravity);
     energy.holds = holds_;
+    energy.pins = pins_;
     std::optional<ClothContact> layers;
     if (options_.self_contact != SelfContact::Off) {
       layers.emplace(cloth_, mesh_, ClothContactOptions{});
@@ -166,6 +192,8 @@ class Draper {
     RelaxOptions relax_options;
     relax_options.iterations = options_.iterations;
     relax_options.stop_residual = options_.stop_residual;
+    relax_options.stop_settled = options_.stop_settled;
+    relax_options.quasi_newton.memory = kPairs;
     relax_options.watched = free_lines(pattern_, mesh_);
     const RelaxResult relaxed = relax(energy, start, relax_options, progress_);
     result_.drape.nodes = relaxed.nodes;
@@ -195,6 +223,12 @@ class Draper {
     if (refined.residual < options_.stop_residual) result_.quality.rest = Rest::Converged;
   }
 
+  // Cloth that pulls harder presses harder: the depth stays what it is with the fabric the option was chosen for.
+  double contact_stiffness() const {
+    const double tension = std::max(cloth_.fabric.weft_stiffness, cloth_.fabric.warp_stiffness);
+    return options_.contact_stiffness * std::max(1.0, tension / kUsualTension);
+  }
+
   void average_targets(DrapeEnergy& energy, const Points3& start) {
     PositionBasedOptions options;
     options.iterations = options_.iterations;
@@ -221,6 +255,7 @@ class Draper {
   double thickness_ = 0;
   std::vector<int> waist_;
   std::vector<Hold> holds_;
+  std::vector<Pin> pins_;
   bool levels_are_own_ = false;  // the garment is judged where it hangs on this body, not where it was placed
   DrapeResult result_;
 };

@@ -21,15 +21,21 @@ struct DrapeOptions {
   double contact_stiffness = 2e6;  // N/m^3, > 0
   int iterations = 2000;           // of the relaxation, at most, 0..100000; 300 settle the placement
   double stop_residual = 0.3;      // residual at which it stops, in mean node weights, > 0
-  double lift = 0.015;             // m the torso is arranged above the height at which it clears the shoulders, 0..0.1
-  std::optional<BodyLevels> drafted_for;    // levels of the body the pattern's placement belongs to; empty: this body
-  bool keep_drape = false;                  // take a given start as the drape, without moving it (drape_from only)
-  // Pbd: the paper's averaging instead of the equilibrium solver. Newton: the exact minimum, from the default's end with
-  // its contacts and friction anchors held; without friction from the default's start.
+  // The same where nothing moves any more (see Rest::Settled); 0: only stop_residual counts. The error is in proportion
+  // to the residual, and that of 1.5 is below 1 mm and 0.1 % of stretch.
+  double stop_settled = 1.5;
+  double lift = 0.015;  // m the torso is arranged above the height at which it clears the shoulders, 0..0.1
+  std::optional<BodyLevels> drafted_for;  // levels of the body the pattern's placement belongs to; empty: this body
+  // From a given start: holds every opening (cuffs, hems, waist, neckline) where the start has it, so that a garment
+  // stretches instead of sliding. The pattern's own pins hold either way.                       [Eggler2024, Sec. 4.1]
+  bool pin_openings = false;
+  bool keep_drape = false;  // take a given start as the drape, without moving it (drape_from only)
+  // Pbd: the paper's averaging instead of the equilibrium solver. Newton: the exact minimum, from the default's end
+  // with its contacts and friction anchors held; without friction from the default's start.
   SolverKind solver = SolverKind::Default;
-  double newton_residual = 1e-6;  // at which Newton stops, in mean node weights, > 0
-  double fibre_slack = 0.0;                 // delta of the position-based solver, 0..0.2
-  double shear_limit_deg = 12.0;            // rho of the position-based solver, 0..45
+  double newton_residual = 1e-6;                 // at which Newton stops, in mean node weights, > 0
+  double fibre_slack = 0.0;                      // delta of the position-based solver, 0..0.2
+  double shear_limit_deg = 12.0;                 // rho of the position-based solver, 0..45
   SelfContact self_contact = SelfContact::Auto;  // Off: cloth passes through cloth
   int first_rung = 0;  // of the retry ladder to begin with, 0..2: as designed, higher and firmer, grown from inside
 };

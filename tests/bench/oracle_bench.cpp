@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// oracle [GARMENT...] [--triangles N] [--frictionless] [--residual R]: the default drape against Newton's, which goes
-// on from the default's end with its contacts and friction anchors (without friction: from the same start) to a
-// residual six orders below. Distances of nodes, heights of hems and the fitting map, beside CPU time.
+// oracle [GARMENT...] [--triangles N] [--frictionless] [--residual R] [--stop-settled R]: the default drape against
+// Newton's, which goes on from the default's end with its contacts and friction anchors (without friction: from the
+// same start) to a residual six orders below. Distances of nodes, heights of hems and the fitting map, beside CPU time.
 #include <cmath>
 #include <cstdio>
 
@@ -18,6 +18,7 @@ struct Request {
   std::vector<std::string> garments;
   int triangles = 10000;
   double residual = 1e-3;
+  std::optional<double> stop_settled;
   bool frictionless = false;
 };
 
@@ -29,6 +30,8 @@ Request parse(const std::vector<std::string>& words) {
       request.triangles = std::atoi(words[++i].c_str());
     else if (words[i] == "--residual" && more)
       request.residual = std::atof(words[++i].c_str());
+    else if (words[i] == "--stop-settled" && more)
+      request.stop_settled = std::atof(words[++i].c_str());
     else if (words[i] == "--frictionless")
       request.frictionless = true;
     else
@@ -42,6 +45,7 @@ Request parse(const std::vector<std::string>& words) {
 void run_one(const Request& request, const std::string& name, Table& table) {
   test::Dressing d = test::dress(name, request.triangles);
   if (request.frictionless) d.options.friction = 0;
+  if (request.stop_settled) d.options.stop_settled = *request.stop_settled;
   const double start = cpu_seconds();
   const DrapeResult usual = drape(d.pattern, d.mesh, d.body, d.options, nullptr);
   const double usual_took = cpu_seconds() - start;

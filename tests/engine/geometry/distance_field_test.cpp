@@ -38,6 +38,20 @@ void expect_gradient(SignedField& field, const Vec3& p, double tolerance) {
   }
 }
 
+TEST(SurfaceField, AskingAgainWithAMemoryGivesTheSameAnswer) {
+  const Body tube = test::tube_body("tube", 0.14, 1.0);
+  SurfaceField field(tube.surface.vertices, tube.surface.triangles),
+      plain(tube.surface.vertices, tube.surface.triangles);
+  std::int32_t hint = 0;
+  Vec3 gradient = Vec3::Zero(), expected = Vec3::Zero();
+  for (const Vec3& p : points_near_wall(0.14, 1.0, 0.01, 300)) {
+    ASSERT_EQ(field.evaluate_again(p, kFar, gradient, hint), plain.evaluate(p, kFar, expected));
+    ASSERT_EQ(gradient, expected);
+    field.prepare(hint);
+    ASSERT_EQ(field.evaluate_again(p, kFar, gradient, hint), plain.evaluate(p, kFar, expected));
+  }
+}
+
 TEST(DistanceField, AnalyticFieldsHaveTheirOwnGradients) {
   CylinderField cylinder(0.14);
   BellyField belly(0.13, 0.04, 0.3, 0.08);

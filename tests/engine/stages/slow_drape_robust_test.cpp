@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Drapes under disturbance: bad starts, odd fabrics, coarse, huge and wrong-sized bodies, mirrored and moved scenes.
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "engine/core/error.h"
+#include "engine/geometry/decimate.h"
+#include "engine/stages/arrange_panels.h"
+#include "engine/stages/find_skeleton.h"
+#include "tests/support/dressed.h"
+#include "tests/support/shared_data.h"
+#include "tests/support/symmetric_body.h"
+
+namespace toile {
+namespace {
+
+constexpr int kTriangles = 2000;
+
+DrapeResult drape_of(const test::Dressing& d) {
+  return drape(d.pattern, d.mesh, d.body, d.options, nullptr);
+}
+
+void expect_settled(const DrapeResult& result) {
+  EXPECT_NE(result.quality.rest, Rest::NotAtRest) << result.quality.residual << ", " << result.quality.settling_move;
+  EXPECT_TRUE(result.drape.nodes.allFinite());
+  EXPECT_EQ(result.quality.nodes_inside, 0) << result.quality.deepest_node;
+}
+
+// At rest or refused for a reason; never nonsense.
+void expect_settled_or_classified(const test::Dressing& d) {
+  try {
+    expect_settled(drape_of(d));
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::DrapeFailed);
+    EXPECT_FALSE(error.message.empty());
+  }
+}
+
+class SlowDisturbedDrape : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    TOILE_REQUIRE_SHARED_DATA();
+    dressed_ = test::dress(GetParam(), kTriangles);
+  }
+  test::Dressing dressed_;
+};
+
+TEST_P(SlowDisturbedDrape, GarmentTurnedInsideOutComesToRest) {
+  Drape inside_out = drape_of(dressed_).drape;
+  inside_out.nodes.col(0) *= -1;
+  expect_settled(drape_from(dressed_.pattern, dressed_.mesh, dressed_.body, inside_out, dressed_.options, nullptr));
+}
+
+TEST_P(SlowDisturbedDrape, ClothTenTimesStifferOrSofterSettles) {
+  for (double factor : {10.0, 0.1}) {
+    test::Dressing d = dressed_;
+    d.pattern.fabric.weft_stiffness *= factor;
+    d.pattern.fabric.warp_stiffness *= factor;
+    d.pattern.fabric.shear_stiffness *= factor;
+    SCOPED_TRACE(factor);
+    expect_settled(drape_of(d));
+  }
+}
+
+TEST_P(SlowDisturbedDrape, BoardStiffClothAndNoGravityEndInRestOrAReason) {
+  test::Dressing d = dressed_;
+  d.pattern.fabric.bending_stiffness *= 1000;
+  expect_settled_or_classified(d);
+  d = dressed_;
+  d.options.gravity = 0;
+  expect_settled_or_classified(d);
+}
+
+TEST_P(SlowDisturbedDrape, CoarseAndHugeBodiesAreDressed) {
+  test::Dressing d = dressed_;
+  d.body.surface = decimate(dressed_.body.surface, 1000);
+  ASSERT_LT(d.body.surface.triangle_count(), 2010);
+  expect_settled(drape_of(d));
+}
+
+INSTANTIATE_TEST_SUITE_P(SlowThree, SlowDisturbedDrape,
+                         testing::Values("tshirt_fitted", "pants_straight", "dress_sleeveless"),
+                         [](const auto& garment) { return garment.param; });
+
+TEST(SlowDrapeScene, SymmetricBodyIsDressedSymmetrically) {
+  TOILE_REQUIRE_SHARED_DATA();
+  {
+    test::Dressing d = test::dress("tshirt_fitted", 4300);
+    d.body.surface = test::mirrored_half(d.body.surface);
+    d.body.skeleton = find_skeleton(d.body.surface).skeleton;
+    const DrapeResult result = drape_of(d);
+    expect_settled(result);
+    Triangles sewn(d.mesh.triangle_count(), 3);
+    for (int f = 0; f < d.mesh.triangle_count(); ++f) sewn.row(f) = d.mesh.nodes_of_triangle(f).transpose();
+    const SurfaceTree cloth(result.drape.nodes, sewn);
+    double most = 0;
+    for (Eigen::Index i = 0; i < result.drape.nodes.rows(); ++i) {
+      Vec3 mirrored = result.drape.nodes.row(i);
+      mirrored.x() *= -1;
+      most = std::max(most, cloth.closest_point(mirrored).distance());
+    }
+    EXPECT_LT(most, 0.003);
+  }
+}
+
+TEST(SlowDrapeScene, TwoThreadsGiveTheBytesOfOne) {
+  TOILE_REQUIRE_SHARED_DATA();
+  const test::Dressing tshirt = test::dress("tshirt_fitted", kTriangles),
+                       skirt = test::dress("skirt_circle", kTriangles);
+  const Points3 alone[2] = {drape_of(tshirt).drape.nodes, drape_of(skirt).drape.nodes};
+  Points3 beside[2];
+  std::thread first([&] { beside[0] = drape_of(tshirt).drape.nodes; }),
+      second([&] { beside[1] = drape_of(skirt).drape.nodes; });
+  first.join(), second.join();
+  for (int k = 0; k < 2; ++k) EXPECT_TRUE(alone[k] == beside[k]);
+}
+
+TEST(SlowDrapeScene, PinnedOpeningsStretchTheGarmentInsteadOfSliding) {
+  TOILE_REQUIRE_SHARED_DATA();
+  test::Dressing d = test::dress("leggings_tight", kTriangles);
+  const DrapeResult own = drape_of(d);
+  Drape longer = own.drape;
+  for (Eigen::Index i = 0; i < longer.nodes.rows(); ++i) longer.nodes(i, 1) += 0.05 * (longer.nodes(i, 1) - 0.6);
+  const auto drift = [&](bool pinned) {
+    d.options.pin_openings = pinned;
+    const DrapeResult result = drape_from(d.pattern, d.mesh, d.body, longer, d.options, nullptr);
+    EXPECT_NE(result.quality.rest, Rest::NotAtRest);
+    double most = 0;
+    for (const std::vector<int>& line : free_lines(d.pattern, d.mesh))
+      for (int n : line) most = std::max(most, (result.drape.nodes.row(n) - longer.nodes.row(n)).norm());
+    return most;
+  };
+  EXPECT_LT(drift(true), 0.003);
+  EXPECT_GT(drift(false), 0.010);
+}
+
+}  // namespace
+}  // namespace toile
