@@ -115,8 +115,8 @@ void archive(A& a, AlterPatternOptions& v) {
 }
 template <class A>
 void archive(A& a, TicketSide& v) {
-  auto& [panel, edges, words] = v;
-  a(panel, edges, words);
+  auto& [panel, edges, words, amount] = v;
+  a(panel, edges, words, amount);
 }
 template <class A>
 void archive(A& a, TicketProfile& v) {
@@ -135,10 +135,10 @@ void archive(A& a, TicketPiece& v) {
 }
 template <class A>
 void archive(A& a, TicketOperation& v) {
-  auto& [kind, where, sides, per_ply, total, largest_at, tapers_to, taper_length, profile, allowance, fabric, pieces,
-         removed_area, touches, below_accuracy, sentence] = v;
-  a(kind, where, sides, per_ply, total, largest_at, tapers_to, taper_length, profile, allowance, fabric, pieces,
-    removed_area, touches, below_accuracy, sentence);
+  auto& [kind, where, sides, per_ply, total, largest_at, tapers_to, taper_length, least, least_at, profile, allowance,
+         fabric, pieces, with_step, removed_area, touches, below_accuracy, sentence] = v;
+  a(kind, where, sides, per_ply, total, largest_at, tapers_to, taper_length, least, least_at, profile, allowance,
+    fabric, pieces, with_step, removed_area, touches, below_accuracy, sentence);
 }
 template <class A>
 void archive(A& a, Ticket& v) {

@@ -8,6 +8,8 @@
 #include "engine/alter/coarse_pattern.h"
 #include "engine/alter/read_operations.h"
 #include "engine/alter/sew_altered.h"
+#include "engine/core/text.h"
+#include "engine/core/units.h"
 
 namespace toile {
 namespace {
@@ -143,7 +145,24 @@ void check_balance(AlterPatternResult& result, const PanelAlteration& panel) {
   result.flags.push_back("panel " + panel.panel + ": pieces add up to " + share + " % more than its area");
 }
 
-void sum_up(AlterPatternResult& result) {
+// A panel that is cut anew has neither insertions nor removals. Which ones are.
+std::vector<bool> forget_tears(const RecutPanels& recut_panels, AlterPatternResult& result) {
+  std::vector<bool> anew(result.panels.size(), false);
+  for (const auto& [p, why] : recut_panels) {
+    PanelAlteration& panel = result.panels[static_cast<std::size_t>(p)];
+    panel.insertions.clear();
+    panel.removals.clear();
+    panel.cut_back = 0.0;
+    anew[static_cast<std::size_t>(p)] = true;
+  }
+  return anew;
+}
+
+void sum_up(const RecutPanels& anew, AlterPatternResult& result) {
+  for (const auto& [p, why] : anew) {
+    result.inserted_area += signed_area(result.panels[static_cast<std::size_t>(p)].target);
+    result.removed_area += signed_area(result.panels[static_cast<std::size_t>(p)].original);
+  }
   for (const PanelAlteration& panel : result.panels) {
     result.original_area += signed_area(panel.original);
     result.target_area += signed_area(panel.target);
@@ -203,10 +222,21 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
     result.dropped_regions += insertion.dropped + removal.dropped;
     result.panels.push_back(std::move(panel));
   }
-  sum_up(result);
-  read_operations(pattern, mesh, inserting, removing, options, result);
-  result.sewn = sew_altered(pattern, mesh, target_rest, inserting, removing, result);
+  RecutPanels anew;
+  for (std::size_t known = 0;;) {  // what is cut anew changes what else there is to do
+    read_operations(pattern, mesh, inserting, removing, options, forget_tears(anew, result), result);
+    result.sewn = sew_altered(pattern, mesh, target_rest, inserting, removing, result, anew);
+    if (anew.size() == known) break;
+    known = anew.size();
+  }
+  sum_up(anew, result);
   tell_ticket(result.sewn, result.ticket);
+  const bool cut_back = std::any_of(result.panels.begin(), result.panels.end(),
+                                    [](const PanelAlteration& panel) { return panel.cut_back > 0.0; });
+  if (cut_back)
+    result.ticket.notes.push_back(print_text(
+        "Strips are at least %.0f mm wide: where less is added, the cloth beside them is cut back by the difference.",
+        options.least_strip * kMmPerMetre));
   return result;
 }
 

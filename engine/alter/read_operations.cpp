@@ -5,11 +5,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
 #include "engine/alter/operation_words.h"
-#include "engine/alter/tear_profile.h"
+#include "engine/alter/tear_reading.h"
+#include "engine/geometry/inner_point.h"
 
 namespace toile {
 namespace {
@@ -17,104 +19,9 @@ namespace {
 constexpr double kProfileSpacing = 0.02;  // m, of the ticket's profiles
 constexpr double kEqualAmount = 0.1;      // relative: left and right that differ by less are one operation
 
-// One tear, read for itself.
-struct Reading {
-  bool inserts = true;
-  int panel = 0;
-  Tear tear;
-  int job = -1;
-  OperationKind kind = OperationKind::TakeIn;
-  FabricNeed fabric = FabricNeed::None;
-  TicketAllowance allowance;
-  TearProfile profile;
-  std::vector<TearMouth> mouths;
-  std::string where, mirror_name;
-};
-
-// Whether a side faces up or down along the grain, so that moving it changes a length and not a girth.
-bool faces_along_grain(const Sheet& sheet, int side) {
-  const SideCurve& curve = sheet.cloth_sides[static_cast<std::size_t>(side)];
-  return std::abs(curve.closest(curve.point(0.5 * curve.length())).normal.y()) > 0.7;
-}
-
-OperationKind released_kind(const Sheet& sheet, const Reading& reading) {
-  const bool sewn = sheet.sides[static_cast<std::size_t>(reading.tear.side)].sewn;
-  const bool length = !sewn && faces_along_grain(sheet, reading.tear.side);
-  if (!reading.inserts) return length ? OperationKind::Shorten : OperationKind::TakeIn;
-  if (length) return OperationKind::Lengthen;
-  return reading.fabric == FabricNeed::WithinAllowance ? OperationKind::LetOut : OperationKind::InsertStrip;
-}
-
-OperationKind cut_kind(const Sheet& sheet, const Reading& reading) {
-  const bool through = !reading.profile.shut_at_start && !reading.profile.shut_at_end;
-  const bool across = std::abs(reading.tear.direction.x()) > std::abs(reading.tear.direction.y());
-  if (!reading.inserts) {
-    if (!through) return OperationKind::DartNew;
-    return across ? OperationKind::Shorten : OperationKind::TakeIn;
-  }
-  if (through) return OperationKind::InsertStrip;
-  return sheet.sides[static_cast<std::size_t>(reading.tear.side)].sewn ? OperationKind::InsertGusset
-                                                                       : OperationKind::InsertGodet;
-}
-
-void read_allowance(const Pattern& pattern, const Sheet& sheet, const AlterPatternOptions& options, Reading& reading) {
-  if (!reading.inserts) return;
-  reading.fabric = FabricNeed::NeedsFabric;
-  if (reading.tear.kind != TearKind::Release) return;
-  reading.allowance.available =
-      allowance_of(pattern, sheet.panel, sheet.sides[static_cast<std::size_t>(reading.tear.side)]);
-  reading.allowance.needed = reading.profile.largest;
-  reading.allowance.left = reading.allowance.available - reading.allowance.needed;
-  if (reading.allowance.left >= options.least_allowance_left) reading.fabric = FabricNeed::WithinAllowance;
-}
-
-Reading read_tear(const Pattern& pattern, const Sheet& sheet, const Tear& tear, std::size_t cut, bool inserts,
-                  const AlterPatternOptions& options) {
-  Reading reading;
-  reading.inserts = inserts;
-  reading.panel = sheet.panel;
-  reading.tear = tear;
-  const bool release = tear.kind == TearKind::Release;
-  reading.profile = release ? side_profile(sheet, tear.side) : cut_profile(sheet, sheet.cuts[cut]);
-  read_allowance(pattern, sheet, options, reading);
-  reading.kind = release ? released_kind(sheet, reading) : cut_kind(sheet, reading);
-  const std::string side = side_words(pattern, sheet, tear.side);
-  reading.where =
-      release ? side : "from the " + side + " into " + pattern.panels[static_cast<std::size_t>(sheet.panel)].name;
-  reading.mirror_name = without_left_right(reading.where);
-  const std::vector<int>& ends = sheet.sides[static_cast<std::size_t>(tear.side)].vertices;
-  if (release) {
-    const int count = static_cast<int>(sheet.sides.size()), before = (tear.side + count - 1) % count;
-    if (!reading.profile.shut_at_start)
-      reading.mouths.push_back({before, sheet.cloth_sides[static_cast<std::size_t>(before)].length()});
-    if (!reading.profile.shut_at_end) reading.mouths.push_back({(tear.side + 1) % count, 0.0});
-  } else if (!ends.empty()) {
-    for (const auto& lips : {sheet.cuts[cut].lips.front(), sheet.cuts[cut].lips.back()})
-      for (const SheetAnchor& anchor : sheet.vertices[static_cast<std::size_t>(lips.first)].anchors)
-        if (anchor.side >= 0 && lips.first != lips.second) reading.mouths.push_back({anchor.side, anchor.at});
-  }
-  return reading;
-}
-
-std::vector<Reading> read_pass(const Pattern& pattern, const TornPattern& torn, bool inserts,
-                               const AlterPatternOptions& options) {
-  std::vector<Reading> readings;
-  for (std::size_t p = 0; p < torn.sheets.size(); ++p) {
-    std::size_t cut = 0;  // cuts stand in the sheet in the order of its edge tears
-    const std::vector<MadeTear>& tears = torn.panels[p].tears;
-    for (std::size_t i = 0; i < tears.size(); ++i) {
-      const std::size_t own = tears[i].tear.kind == TearKind::Edge ? cut++ : 0;
-      Reading reading = read_tear(pattern, torn.sheets[p], tears[i].tear, own, inserts, options);
-      reading.job = torn.jobs[p][i];
-      if (reading.profile.largest > 0.0) readings.push_back(std::move(reading));
-    }
-  }
-  return readings;
-}
-
 // Whether two readings are one job for the person who sews.
-bool belong_together(const TornPattern& torn, const std::vector<std::vector<SeamPartner>>& partners, const Reading& a,
-                     const Reading& b) {
+bool belong_together(const TornPattern& torn, const std::vector<std::vector<SeamPartner>>& partners,
+                     const TearReading& a, const TearReading& b) {
   if (a.inserts != b.inserts) return false;
   if (a.job == b.job) return true;
   if (a.kind != b.kind || a.tear.kind != TearKind::Edge || b.tear.kind != TearKind::Edge) return false;
@@ -129,8 +36,9 @@ bool belong_together(const TornPattern& torn, const std::vector<std::vector<Seam
   return false;
 }
 
-std::vector<std::vector<std::size_t>> group(const std::vector<Reading>& readings,
-                                            const std::function<bool(const Reading&, const Reading&)>& together) {
+std::vector<std::vector<std::size_t>> group(
+    const std::vector<TearReading>& readings,
+    const std::function<bool(const TearReading&, const TearReading&)>& together) {
   std::vector<std::size_t> parent(readings.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   const auto root = [&](std::size_t i) {
@@ -149,44 +57,81 @@ std::vector<std::vector<std::size_t>> group(const std::vector<Reading>& readings
   return groups;
 }
 
-std::string joined_names(const std::set<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : "; ") + name;
-  return text;
+bool is_length(OperationKind kind) {
+  return kind == OperationKind::Lengthen || kind == OperationKind::Shorten;
 }
 
-void describe_taper(const Reading& reading, const std::vector<Vec2>& outline, TicketOperation& operation) {
+// "left and right side", "from the waist into front and back".
+std::string where_words(const Pattern& pattern, const std::vector<const TearReading*>& members) {
+  std::vector<std::string> sides, panels;
+  std::set<int> numbers;
+  bool hems = true;
+  std::map<std::string, std::pair<std::vector<std::string>, std::vector<std::string>>> cuts;  // into which panels
+  for (const TearReading* reading : members) {
+    const Panel& panel = pattern.panels[static_cast<std::size_t>(reading->panel)];
+    auto& [from, into] = cuts[without_left_right(spoken_list(reading->names))];
+    panels.push_back(panel_words(panel));
+    numbers.insert(reading->panel);
+    hems = hems && !reading->cuts() && is_length(reading->kind) && reading->names[0].find(" of ") == std::string::npos;
+    auto& names = reading->cuts() ? from : sides;
+    names.insert(names.end(), reading->names.begin(), reading->names.end());
+    if (reading->cuts()) into.push_back(panel_words(panel));
+  }
+  std::vector<std::string> words;
+  if (!sides.empty()) words.push_back(spoken_list(sides));
+  if (hems && numbers.size() < pattern.panels.size())  // which hem of several
+    words.back() += " of " + spoken_list(panels);
+  for (const auto& [key, cut] : cuts)
+    if (!cut.second.empty()) words.push_back("from the " + spoken_list(cut.first) + " into " + spoken_list(cut.second));
+  return spoken_list(words);
+}
+
+// Where the amount is largest and how it goes on from there.
+void describe_course(const TearReading& reading, const std::vector<Vec2>& outline, TicketOperation& operation) {
+  constexpr double kEven = 0.8;     // of the largest: an amount that keeps to this is the same all along
+  constexpr double kAtEnd = 0.08;   // of the length: nearer to an end is at that end
+  constexpr double kMiddle = 0.25;  // of the length, of what runs round the body: farther from both ends
   const TearProfile& profile = reading.profile;
   operation.profile = {kProfileSpacing, profile.sampled(kProfileSpacing)};
-  const double least = *std::min_element(profile.open.begin(), profile.open.end());
-  if (least > 0.8 * profile.largest) {
+  const auto least = std::min_element(profile.open.begin(), profile.open.end());
+  operation.least = *least;
+  if (*least > kEven * profile.largest) {
     operation.largest_at = "all along";
     return;
   }
-  operation.largest_at = place_words(profile.middle[profile.largest_index], outline);
-  if (!profile.shut_at_start && !profile.shut_at_end) return;
+  const auto place = [&](std::size_t i) {
+    const double share = (profile.at[i] - profile.at.front()) / std::max(1e-9, profile.at.back() - profile.at.front());
+    if (share < kAtEnd) return reading.end_words[0];
+    if (share > 1.0 - kAtEnd) return reading.end_words[1];
+    if (reading.upright || reading.cuts()) return place_words(profile.middle[i], outline);
+    return std::string(share > kMiddle && share < 1.0 - kMiddle ? "in the middle" : "near an end");
+  };
+  operation.largest_at = place(profile.largest_index);
+  if (!profile.shut_at_start && !profile.shut_at_end) {
+    operation.least_at = place(static_cast<std::size_t>(least - profile.open.begin()));
+    return;
+  }
   const std::size_t end = profile.shut_at_end ? profile.at.size() - 1 : 0;
   std::size_t shut = end;  // the nearest place to the largest amount where nothing is open any more
   while (shut != profile.largest_index && profile.open[shut] < 1e-9)
     shut = shut > profile.largest_index ? shut - 1 : shut + 1;
-  operation.tapers_to = place_words(profile.middle[shut], outline);
+  operation.tapers_to = place(shut);
   operation.taper_length = std::abs(profile.at[shut] - profile.at[profile.largest_index]);
 }
 
-TicketOperation describe(const Pattern& pattern, const TornPattern& torn, const std::vector<Reading>& readings,
-                         const std::vector<std::size_t>& members, const AlterPatternOptions& options) {
+TicketOperation describe(const Pattern& pattern, const TornPattern& torn, const std::vector<TearReading>& members,
+                         const AlterPatternOptions& options) {
   TicketOperation operation;
-  std::set<std::string> where, touches;
-  const Reading* largest = &readings[members[0]];
-  for (const std::size_t i : members) {
-    const Reading& reading = readings[i];
+  std::set<std::string> touches;
+  std::vector<const TearReading*> all;
+  const TearReading* largest = &members[0];
+  for (const TearReading& reading : members) {
     const Sheet& sheet = torn.sheets[static_cast<std::size_t>(reading.panel)];
     const Panel& panel = pattern.panels[static_cast<std::size_t>(reading.panel)];
+    all.push_back(&reading);
     if (reading.profile.largest > largest->profile.largest) largest = &reading;
-    where.insert(reading.where);
     const std::vector<int>& edges = sheet.sides[static_cast<std::size_t>(reading.tear.side)].edges;
-    operation.sides.push_back({panel.name, edges, reading.where});
-    operation.total += reading.profile.largest;
+    operation.sides.push_back({panel.name, edges, spoken_list(reading.names), reading.profile.largest});
     for (const int edge : edges)
       if (panel.edges[static_cast<std::size_t>(edge)].zip) touches.insert("zip");
     for (const KeepOut& keep : panel.keep_outs) touches.insert(keep.why);
@@ -195,105 +140,172 @@ TicketOperation describe(const Pattern& pattern, const TornPattern& torn, const 
   }
   operation.kind = largest->kind;
   operation.per_ply = largest->profile.largest;
-  if (operation.kind == OperationKind::Lengthen || operation.kind == OperationKind::Shorten)
-    operation.total = operation.per_ply;
+  operation.total = total_amount(pattern, torn, members);
   operation.allowance = largest->allowance;
-  operation.where = joined_names(where);
+  operation.where = where_words(pattern, all);
   operation.touches.assign(touches.begin(), touches.end());
   operation.below_accuracy = operation.total < options.least_change;
-  const Sheet& sheet = torn.sheets[static_cast<std::size_t>(largest->panel)];
   std::vector<Vec2> outline;
-  for (const SideCurve& side : sheet.wanted_sides)
+  for (const SideCurve& side : torn.sheets[static_cast<std::size_t>(largest->panel)].wanted_sides)
     outline.insert(outline.end(), side.points().begin(), side.points().end());
-  describe_taper(*largest, outline, operation);
+  describe_course(*largest, outline, operation);
   return operation;
 }
 
-bool inside(const PolygonWithHoles& polygon, const Vec2& p) {
-  bool in = false;
-  const auto& loop = polygon.outline;
-  for (std::size_t i = 0, j = loop.size() - 1; i < loop.size(); j = i++)
-    if ((loop[i].y() > p.y()) != (loop[j].y() > p.y()) &&
-        p.x() < loop[i].x() + (p.y() - loop[i].y()) / (loop[j].y() - loop[i].y()) * (loop[j].x() - loop[i].x()))
-      in = !in;
-  return in;
-}
-
 TicketPiece piece_of(const Pattern& pattern, const AlteredRegion& region) {
-  Vec2 low = region.shape.outline[0], high = low;
-  for (const Vec2& p : region.shape.outline) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
   TicketPiece piece;
   piece.name = piece.label = region.name;
-  piece.width = high.x() - low.x();
-  piece.length = high.y() - low.y();
+  const Vec2 size = least_box(region.shape.outline);
+  piece.width = size.x();
+  piece.length = size.y();
   piece.area = region.area;
   piece.seam_allowance = pattern.seam_allowance;
   return piece;
 }
 
+// How much of a region a tear opened, as an area; 0 when none.
+double opened_area(const TearReading& reading, const AlteredRegion& region) {
+  const TearProfile& profile = reading.profile;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < profile.at.size(); ++i) {
+    if (!inside_polygon(region.shape.outline, profile.middle[i])) continue;
+    const double from = profile.at[i > 0 ? i - 1 : 0], to = profile.at[std::min(i + 1, profile.at.size() - 1)];
+    sum += 0.5 * (to - from) * profile.open[i];
+  }
+  return sum;
+}
+
+// Tears whose opening was too small to become a region are not worth a word.
+void drop_closed(const std::vector<PanelAlteration>& panels, std::vector<TearReading>& readings) {
+  std::erase_if(readings, [&](const TearReading& reading) {
+    const PanelAlteration& panel = panels[static_cast<std::size_t>(reading.panel)];
+    const auto& regions = reading.inserts ? panel.insertions : panel.removals;
+    return std::none_of(regions.begin(), regions.end(),
+                        [&](const AlteredRegion& region) { return opened_area(reading, region) > 0.0; });
+  });
+}
+
+double distance_to(const TearReading& reading, const AlteredRegion& region) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec2& p : reading.profile.middle) least = std::min(least, distance_to_polygon(region.shape.outline, p));
+  return least;
+}
+
+// One operation with the tears it is made of.
 struct Job {
-  std::vector<Reading> members;
+  const TornPattern* torn;
+  std::vector<TearReading> members;
   TicketOperation operation;
 };
 
-// The job that opened a region: the one whose tears lie in it along most of their way. -1: none.
-int opener_of(const PolygonWithHoles& region, std::size_t panel, bool inserts, const std::vector<Job>& jobs) {
-  int opener = -1;
-  std::ptrdiff_t most = 0;
+// Gives every region to the operation that opens most of it, and what it takes away to all that do.
+void claim_region(std::vector<Job>& jobs, int panel, bool inserts, AlteredRegion& region) {
+  std::vector<double> opened(jobs.size(), 0.0);
+  std::pair<double, int> nearest{std::numeric_limits<double>::infinity(), -1};
   for (std::size_t j = 0; j < jobs.size(); ++j)
-    for (const Reading& reading : jobs[j].members) {
-      if (reading.inserts != inserts || reading.panel != static_cast<int>(panel)) continue;
-      const auto within = std::count_if(reading.profile.middle.begin(), reading.profile.middle.end(),
-                                        [&](const Vec2& p) { return inside(region, p); });
-      if (within <= most) continue;
-      most = within;
-      opener = static_cast<int>(j);
+    for (const TearReading& reading : jobs[j].members) {
+      if (reading.panel != panel || reading.inserts != inserts) continue;
+      opened[j] += opened_area(reading, region);
+      nearest = std::min(nearest, {distance_to(reading, region), static_cast<int>(j)});
     }
-  return opener;
+  const double sum = std::accumulate(opened.begin(), opened.end(), 0.0);
+  region.operation = nearest.second;
+  if (sum > 0.0) region.operation = static_cast<int>(std::max_element(opened.begin(), opened.end()) - opened.begin());
+  if (region.operation < 0) return;
+  const int owner = region.operation;
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    TicketOperation& operation = jobs[j].operation;
+    const double share = sum > 0.0 ? opened[j] / sum : static_cast<int>(j) == owner;
+    if (!inserts) operation.removed_area += share * region.area;
+    if (share > 0.0 && static_cast<int>(j) != owner) operation.with_step = owner + 1;
+  }
 }
 
-void share_out_regions(const Pattern& pattern, std::vector<Job>& jobs, std::vector<PanelAlteration>& panels) {
-  for (std::size_t p = 0; p < panels.size(); ++p)
-    for (const bool inserts : {true, false})
-      for (AlteredRegion& region : inserts ? panels[p].insertions : panels[p].removals) {
-        region.operation = opener_of(region.shape, p, inserts, jobs);
-        if (region.operation < 0) continue;
-        TicketOperation& operation = jobs[static_cast<std::size_t>(region.operation)].operation;
-        if (!inserts)
-          operation.removed_area += region.area;
-        else if (operation.fabric == FabricNeed::NeedsFabric)
-          operation.pieces.push_back(piece_of(pattern, region));
-      }
+// New cloth for every operation; what another operation's piece brings along is said to come with it.
+void list_pieces(const Pattern& pattern, std::vector<Job>& jobs, const std::vector<PanelAlteration>& panels) {
+  const auto owned = [&](int job, bool inserts) {
+    std::vector<const AlteredRegion*> regions;
+    for (const PanelAlteration& panel : panels)
+      for (const AlteredRegion& region : inserts ? panel.insertions : panel.removals)
+        if (region.operation == job) regions.push_back(&region);
+    return regions;
+  };
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    TicketOperation& operation = jobs[j].operation;
+    const bool inserts = operation.fabric != FabricNeed::None;
+    const auto own = owned(static_cast<int>(j), inserts);
+    if (!own.empty()) operation.with_step = 0;
+    if (operation.with_step > 0 && inserts)
+      operation.fabric = jobs[static_cast<std::size_t>(operation.with_step - 1)].operation.fabric;
+    if (operation.kind == OperationKind::LetOut && operation.fabric == FabricNeed::NeedsFabric)
+      operation.kind = OperationKind::InsertStrip;
+    if (operation.fabric == FabricNeed::NeedsFabric)
+      for (const AlteredRegion* region : own) operation.pieces.push_back(piece_of(pattern, *region));
+  }
 }
 
-int work_order(OperationKind kind) {  // darts, then widths, then hems
+// Panels that cannot be pieced: one operation, done first.
+TicketOperation cut_anew(const Pattern& pattern, const std::vector<bool>& recut,
+                         const std::vector<PanelAlteration>& panels) {
+  TicketOperation operation;
+  operation.kind = OperationKind::CutAnew;
+  operation.fabric = FabricNeed::NeedsFabric;
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < recut.size(); ++p) {
+    if (!recut[p]) continue;
+    const Panel& panel = pattern.panels[p];
+    std::vector<int> edges(panel.edges.size());
+    std::iota(edges.begin(), edges.end(), 0);
+    names.push_back(panel_words(panel));
+    operation.sides.push_back({panel.name, std::move(edges), names.back(), 0.0});
+    operation.removed_area += signed_area(panels[p].original);
+    operation.pieces.push_back(
+        piece_of(pattern, {panel.name, {panels[p].target, {}}, signed_area(panels[p].target), 0}));
+    operation.pieces.back().quantity = panel.quantity;
+  }
+  operation.where = spoken_list(names);
+  operation.sentence = operation_sentence(operation);
+  return operation;
+}
+
+int work_order(OperationKind kind) {  // new panels, darts, widths, hems
+  if (kind == OperationKind::CutAnew) return -1;
   if (kind == OperationKind::DartNew || kind == OperationKind::DartDeepen) return 0;
-  return kind == OperationKind::Lengthen || kind == OperationKind::Shorten ? 2 : 1;
+  return is_length(kind) ? 2 : 1;
 }
 
 }  // namespace
 
 void read_operations(const Pattern& pattern, const PatternMesh& mesh, const TornPattern& inserting,
-                     const TornPattern& removing, const AlterPatternOptions& options, AlterPatternResult& result) {
+                     const TornPattern& removing, const AlterPatternOptions& options, const std::vector<bool>& recut,
+                     AlterPatternResult& result) {
   const auto partners = find_seam_partners(mesh);
   std::vector<Job> jobs;
+  if (std::find(recut.begin(), recut.end(), true) != recut.end())
+    jobs.push_back({nullptr, {}, cut_anew(pattern, recut, result.panels)});
   for (const bool inserts : {true, false}) {
     const TornPattern& torn = inserts ? inserting : removing;
-    const std::vector<Reading> readings = read_pass(pattern, torn, inserts, options);
-    const auto together = [&](const Reading& a, const Reading& b) { return belong_together(torn, partners, a, b); };
-    for (const auto& members : group(readings, together)) {
-      Job job{{}, describe(pattern, torn, readings, members, options)};
-      for (const std::size_t i : members) job.members.push_back(readings[i]);
+    std::vector<TearReading> readings = read_tears(pattern, torn, inserts, options, recut);
+    drop_closed(result.panels, readings);
+    const auto together = [&](const TearReading& a, const TearReading& b) {
+      return belong_together(torn, partners, a, b);
+    };
+    for (const auto& numbers : group(readings, together)) {
+      Job job{&torn, {}, {}};
+      for (const std::size_t i : numbers) job.members.push_back(readings[i]);
+      job.operation = describe(pattern, torn, job.members, options);
       jobs.push_back(std::move(job));
     }
   }
   std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) {
     return work_order(a.operation.kind) < work_order(b.operation.kind);
   });
-  share_out_regions(pattern, jobs, result.panels);
+  for (std::size_t p = 0; p < result.panels.size(); ++p)
+    for (const bool inserts : {true, false})
+      for (AlteredRegion& region : inserts ? result.panels[p].insertions : result.panels[p].removals)
+        claim_region(jobs, static_cast<int>(p), inserts, region);
+  list_pieces(pattern, jobs, result.panels);
+  result.ticket.operations.clear();
   for (Job& job : jobs) {
     job.operation.sentence = operation_sentence(job.operation);
     result.ticket.operations.push_back(std::move(job.operation));

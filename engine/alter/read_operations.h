@@ -8,8 +8,10 @@
 
 namespace toile {
 
-// Fills result.ticket.operations and the `operation` of every region.
+// Fills result.ticket.operations and the `operation` of every region. `recut`: panels that are cut anew, whatever their
+// tears are.
 void read_operations(const Pattern& pattern, const PatternMesh& mesh, const TornPattern& inserting,
-                     const TornPattern& removing, const AlterPatternOptions& options, AlterPatternResult& result);
+                     const TornPattern& removing, const AlterPatternOptions& options, const std::vector<bool>& recut,
+                     AlterPatternResult& result);
 
 }  // namespace toile

@@ -30,13 +30,14 @@ struct DrawnPiece {
 class Sewing {
  public:
   Sewing(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest, const TornPattern& inserting,
-         const TornPattern& removing, const AlterPatternResult& result)
+         const TornPattern& removing, const AlterPatternResult& result, RecutPanels& recut)
       : pattern_(pattern),
         mesh_(mesh),
         target_rest_(target_rest),
         inserting_(inserting),
         removing_(removing),
-        alteration_(result) {}
+        alteration_(result),
+        recut_(recut) {}
 
   SewnPattern run() {
     for (int p = 0; p < static_cast<int>(pattern_.panels.size()); ++p)
@@ -84,6 +85,7 @@ class Sewing {
   const Points2& target_rest_;
   const TornPattern &inserting_, &removing_;
   const AlterPatternResult& alteration_;
+  RecutPanels& recut_;
   SewnPattern sewn_;
   std::vector<PieceBorder> borders_;
   std::vector<BorderChain> chains_;
@@ -106,16 +108,22 @@ bool Sewing::add_panel(int p) {
   const PanelAlteration& panel = alteration_.panels[index];
   const bool altered = !panel.insertions.empty() || !panel.removals.empty();
   const AlteredParts whole = whole_panel(mesh_, target_rest_, panel.target, p);
-  const AlteredParts parts =
-      altered ? part_altered_panel(mesh_, target_rest_, inserting_.sheets[index], removing_.sheets[index], panel,
-                                   let_out(panel), std::max(pattern_.seam_allowance, kLeastTurnIn))
-              : whole;
-  const std::string problem = parts.problem.empty() ? try_panel(p, parts, false) : parts.problem;
+  std::string problem = recut_.contains(p) ? recut_.at(p) : "";
+  if (problem.empty()) {
+    const AlteredParts parts =
+        altered ? part_altered_panel(mesh_, target_rest_, inserting_.sheets[index], removing_.sheets[index], panel,
+                                     let_out(panel), std::max(pattern_.seam_allowance, kLeastTurnIn))
+                : whole;
+    problem = parts.problem.empty() ? try_panel(p, parts, false) : parts.problem;
+  }
   if (problem.empty()) return true;
   const std::string hopeless = try_panel(p, whole, true);
-  sewn_.flags.push_back("panel " + panel.panel + " is cut anew to the target: " + problem);
-  if (hopeless.empty()) return true;
-  sewn_.flags.back() = "panel " + panel.panel + " cannot be sewn: " + hopeless;
+  if (hopeless.empty()) {
+    sewn_.flags.push_back("panel " + panel.panel + " is cut anew to the target: " + problem);
+    recut_.emplace(p, problem);
+    return true;
+  }
+  sewn_.flags.push_back("panel " + panel.panel + " cannot be sewn: " + hopeless);
   sewn_.pieces.clear();
   return false;
 }
@@ -397,12 +405,11 @@ void tell_ticket(const SewnPattern& sewn, Ticket& ticket) {
     for (TicketPiece& piece : operation.pieces) {
       const Panel* panel = panel_named(sewn.pattern, piece.name);
       if (!panel) continue;
-      Vec2 low = panel->corners.front(), high = low;
-      for (const Vec2& p : flatten_outline(*panel, 1e-4)) low = low.cwiseMin(p), high = high.cwiseMax(p);
+      const Vec2 box = least_box(flatten_outline(*panel, 1e-4));
       const double size = std::abs(outline_signed_area(*panel));
-      turned_in = turned_in || size > piece.area + kTurnedInArea;
-      piece.width = high.x() - low.x();
-      piece.length = high.y() - low.y();
+      turned_in = turned_in || (operation.kind != OperationKind::CutAnew && size > piece.area + kTurnedInArea);
+      piece.width = box.x();
+      piece.length = box.y();
       piece.area = size;
     }
   if (turned_in)
@@ -413,8 +420,9 @@ void tell_ticket(const SewnPattern& sewn, Ticket& ticket) {
 }
 
 SewnPattern sew_altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                        const TornPattern& inserting, const TornPattern& removing, const AlterPatternResult& result) {
-  return Sewing(pattern, mesh, target_rest, inserting, removing, result).run();
+                        const TornPattern& inserting, const TornPattern& removing, const AlterPatternResult& result,
+                        RecutPanels& recut) {
+  return Sewing(pattern, mesh, target_rest, inserting, removing, result, recut).run();
 }
 
 }  // namespace toile

@@ -8,14 +8,21 @@
 // overlap, cloth that turns over) is cut anew to the target and flagged.   Lengths in metres.
 #pragma once
 
+#include <map>
+
 #include "engine/alter/alter_pattern.h"
 #include "engine/alter/sewn_pattern.h"
 
 namespace toile {
 
-// Requires result.panels and result.ticket of the same two passes.
+// Panels to cut anew, and why.
+using RecutPanels = std::map<int, std::string>;
+
+// Requires result.panels and result.ticket of the same two passes. Panels that turn out not to be sewable as altered
+// are added to `recut`: then operations and pieces do not agree any more, and both are to be made again.
 SewnPattern sew_altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                        const TornPattern& inserting, const TornPattern& removing, const AlterPatternResult& result);
+                        const TornPattern& inserting, const TornPattern& removing, const AlterPatternResult& result,
+                        RecutPanels& recut);
 
 // Gives the ticket's pieces the sizes they have in the sewn pattern, and says what else the person who sews must know.
 void tell_ticket(const SewnPattern& sewn, Ticket& ticket);

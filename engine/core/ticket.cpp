@@ -6,16 +6,16 @@
 namespace toile {
 
 std::string_view operation_name(OperationKind kind) {
-  static constexpr std::array<std::string_view, 9> kNames = {"take_in",      "let_out",      "shorten",
-                                                             "lengthen",     "insert_strip", "insert_gusset",
-                                                             "insert_godet", "dart_new",     "dart_deepen"};
+  static constexpr std::array<std::string_view, 10> kNames = {
+      "take_in",       "let_out",      "shorten",  "lengthen",    "insert_strip",
+      "insert_gusset", "insert_godet", "dart_new", "dart_deepen", "cut_anew"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string_view operation_words(OperationKind kind) {
-  static constexpr std::array<std::string_view, 9> kWords = {"take in",        "let out",        "shorten",
-                                                             "lengthen",       "insert a strip", "insert a gusset",
-                                                             "insert a godet", "sew a new dart", "deepen the dart"};
+  static constexpr std::array<std::string_view, 10> kWords = {
+      "take in",         "let out",        "shorten",        "lengthen",        "insert a strip",
+      "insert a gusset", "insert a godet", "sew a new dart", "deepen the dart", "cut anew"};
   return kWords[static_cast<std::size_t>(kind)];
 }
 

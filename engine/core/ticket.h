@@ -19,6 +19,7 @@ enum class OperationKind {
   InsertGodet,
   DartNew,
   DartDeepen,
+  CutAnew,  // whole panels that cannot be pieced
 };
 std::string_view operation_name(OperationKind kind);   // "take_in", ..., as in ticket.json
 std::string_view operation_words(OperationKind kind);  // "take in", ..., as in a sentence
@@ -28,6 +29,7 @@ struct TicketSide {
   std::string panel;
   std::vector<int> edges;  // of the original pattern, in order
   std::string words;       // "side seam, front left"
+  double amount = 0.0;     // largest on this ply
 };
 
 // Amounts along the seam: amounts[i] holds at i * spacing from the start; the last one at the end of the operation.
@@ -51,7 +53,7 @@ struct TicketAllowance {
 struct TicketPiece {
   std::string name;                  // as in the drawings: "insertion_1"
   std::string label;                 // printed on it
-  double width = 0.0, length = 0.0;  // across and along its grain, without seam allowance
+  double width = 0.0, length = 0.0;  // of the narrowest box round it, without seam allowance
   double area = 0.0;                 // without seam allowance
   double grain_angle = 0.0;          // of its grainline against that of the panel it joins, rad
   double seam_allowance = 0.0;
@@ -67,10 +69,13 @@ struct TicketOperation {
   std::string largest_at;         // where along the seam: "at the waist"
   std::string tapers_to;          // where it ends in nothing: "at the hip"; empty: it keeps its amount
   double taper_length = 0.0;      // from the largest amount to nothing
+  double least = 0.0;             // least amount on the ply that has the largest
+  std::string least_at;           // where that is, if it neither keeps its amount nor tapers to nothing
   TicketProfile profile;
   TicketAllowance allowance;
   FabricNeed fabric = FabricNeed::None;
   std::vector<TicketPiece> pieces;
+  int with_step = 0;  // number of the operation whose pieces hold what this one adds or takes away; 0: it has its own
   double removed_area = 0.0;
   std::vector<std::string> touches;  // "zip", "pocket", "hem of panel front_left", ...
   bool below_accuracy = false;       // smaller than what a body can be measured to (ISO 20685-1)

@@ -63,4 +63,21 @@ std::array<double, 2> chord_through(const std::vector<Vec2>& polygon, const Vec2
   return {behind, ahead};
 }
 
+Vec2 least_box(const std::vector<Vec2>& polygon) {
+  Vec2 best = Vec2::Constant(std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+    if (edge.squaredNorm() == 0.0) continue;
+    const Vec2 along = edge.normalized(), across(-along.y(), along.x());
+    Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Vec2& p : polygon) {
+      const Vec2 turned(p.dot(across), p.dot(along));
+      low = low.cwiseMin(turned), high = high.cwiseMax(turned);
+    }
+    const Vec2 size = high - low;
+    if (size.minCoeff() < best.x()) best = {size.minCoeff(), size.maxCoeff()};
+  }
+  return polygon.size() < 2 ? Vec2(0, 0) : best;
+}
+
 }  // namespace toile

@@ -31,7 +31,10 @@ std::string mm_text(double metres) {
 Record side_record(const TicketSide& side) {
   std::vector<std::int64_t> edges(side.edges.begin(), side.edges.end());
   Record record;
-  record.add("panel", side.panel).add("edges", std::move(edges)).add("words", side.words);
+  record.add("panel", side.panel)
+      .add("edges", std::move(edges))
+      .add("words", side.words)
+      .add("per_ply_mm", mm(side.amount));
   return record;
 }
 
@@ -59,7 +62,8 @@ Record operation_record(const TicketOperation& operation, int order) {
   record.add("order", order).add("op", std::string(operation_name(operation.kind))).add("where", operation.where);
   record.add("sides", std::move(sides)).add("per_ply_mm", mm(operation.per_ply)).add("total_mm", mm(operation.total));
   record.add("largest_at", operation.largest_at).add("tapers_to", operation.tapers_to);
-  record.add("taper_length_mm", mm(operation.taper_length)).add("profile", std::move(profile));
+  record.add("taper_length_mm", mm(operation.taper_length)).add("least_mm", mm(operation.least));
+  record.add("least_at", operation.least_at).add("with_step", operation.with_step).add("profile", std::move(profile));
   record.add("seam_allowance", std::move(allowance)).add("fabric", std::string(fabric_need_name(operation.fabric)));
   record.add("pieces", std::move(pieces)).add("removed_area_cm2", square_cm(operation.removed_area));
   record.add("touches", operation.touches).add("below_accuracy", operation.below_accuracy);
@@ -69,7 +73,7 @@ Record operation_record(const TicketOperation& operation, int order) {
 
 bool adds_cloth(OperationKind kind) {
   return kind == OperationKind::LetOut || kind == OperationKind::Lengthen || kind == OperationKind::InsertStrip ||
-         kind == OperationKind::InsertGusset || kind == OperationKind::InsertGodet;
+         kind == OperationKind::InsertGusset || kind == OperationKind::InsertGodet || kind == OperationKind::CutAnew;
 }
 
 // The amount along the seam as a small graph: a filled line over the seam's length.
@@ -110,6 +114,7 @@ std::string sides_text(const TicketOperation& operation) {
     std::string text = side.panel;
     text += side.edges.size() == 1 ? ", edge" : ", edges";
     for (const int edge : side.edges) append(text, {" ", std::to_string(edge)});
+    if (side.amount > 0) append(text, {": ", mm_text(side.amount)});
     words.push_back(text);
   }
   std::string text;
@@ -121,9 +126,12 @@ std::string facts(const TicketOperation& operation) {
   std::string list = "<dl>";
   add_fact(list, "where", operation.where);
   add_fact(list, "panels", sides_text(operation));
-  std::string amount = mm_text(operation.per_ply);
-  append(amount, {" per ply, ", mm_text(operation.total), " in all"});
-  add_fact(list, "amount", amount);
+  if (operation.per_ply > 0) {
+    std::string amount = mm_text(operation.per_ply);
+    if (operation.total > 1.001 * operation.per_ply)
+      append(amount, {" per ply, ", mm_text(operation.total), " in all"});
+    add_fact(list, "amount", amount);
+  }
   if (operation.allowance.needed > 0) {
     const bool enough = operation.allowance.left >= 0;
     std::string text = mm_text(operation.allowance.available);

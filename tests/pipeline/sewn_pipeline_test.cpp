@@ -93,7 +93,7 @@ TEST(SewnPipeline, ATallerFormWantsAStripAlongTheHem) {
   EXPECT_EQ(result.altered.ticket.operations[0].kind, OperationKind::Lengthen);
   const double longer =
       extent(result, result.derived.mesh.rest, 0).y() - extent(result, result.reference.mesh.rest, 0).y();
-  EXPECT_NEAR(result.altered.ticket.operations[0].pieces.at(0).length, longer, kExact * longer);
+  EXPECT_NEAR(result.altered.ticket.operations[0].pieces.at(0).width, longer, kExact * longer);
   expect_better_fit(result);
 }
 
@@ -190,7 +190,7 @@ TEST(SewnPipeline, TheDrawingShowsThePiecesOfTheDocument) {
     ASSERT_EQ(a.points.size(), b.points.size());
     for (std::size_t i = 0; i < a.points.size(); ++i) EXPECT_LT((a.points[i] - b.points[i]).norm(), kSame);
   };
-  int compared = 0;
+  std::size_t compared = 0;
   for (const DrawingPiece& wanted : read_back.pieces)
     for (const DrawingPiece& piece : drawing.pieces) {
       if (piece.name != wanted.name) continue;
@@ -204,7 +204,7 @@ TEST(SewnPipeline, TheDrawingShowsThePiecesOfTheDocument) {
         EXPECT_LT((piece.notches[n].at - wanted.notches[n].at).norm(), kSame);
       ++compared;
     }
-  EXPECT_EQ(compared, 8);  // of each panel the kept piece, a strip at either side and one at the hem
+  EXPECT_EQ(compared, 8u);  // of each panel the kept piece, a strip at either side and one at the hem
 }
 
 // Both numbers of "118 mm per ply (237 mm in all)", or one of them twice.
@@ -257,11 +257,6 @@ TEST(SewnPipeline, TheNumbersOfEverySentenceAreThoseOfTheDrawing) {
       double sum = 0.0;
       for (const double width : widths) sum += width;
       EXPECT_NEAR(total, length ? widths[0] : sum, 2.5) << to << ": " << operations[o].sentence;
-      double removed = 0.0;
-      for (const PanelAlteration& panel : result.altered.panels)
-        for (const AlteredRegion& region : panel.removals)
-          if (region.operation == static_cast<int>(o)) removed += region.area;
-      EXPECT_NEAR(operations[o].removed_area, removed, 1e-9);
       for (const TicketPiece& piece : operations[o].pieces)
         for (const DrawingPiece& drawn : drawing.pieces)
           if (drawn.name == piece.name)
