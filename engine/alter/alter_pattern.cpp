@@ -14,11 +14,11 @@
 namespace toile {
 namespace {
 
-constexpr int kPlanTriangles = 600;      // of the garment: tears are chosen on so many
-constexpr double kPastMouth = 0.001;     // m
-constexpr double kMostImbalance = 0.03;  // of the area of a panel: more is no stretch but pieces that overlap
-constexpr double kLeastWay = 0.004;      // m: narrow bands may be strained by so much without more ado
-constexpr double kLeastPart = 2e-5;      // m^2: what a dart leaves of an opening and is smaller is crumbs
+constexpr int kPlanTriangles = 600;   // of the garment: tears are chosen on so many
+constexpr double kPastMouth = 0.001;  // m
+constexpr double kStrained = 2.0;     // times the allowed stretch: share of a panel's area that strain in it explains
+constexpr double kLeastOff = 5e-5;    // m^2: less is crumbs
+constexpr double kLeastPart = 2e-5;   // m^2: what a dart leaves of an opening and is smaller is crumbs
 
 TearPatternOptions pass_options(const Pattern& pattern, const AlterPatternOptions& options, bool removing) {
   TearPatternOptions pass;
@@ -129,17 +129,13 @@ void add_flag(AlterPatternResult& result, const std::string& panel, const char* 
   result.flags.push_back("panel " + panel + ": " + pass + " leaves " + stretch + " % stretch; " + tearing.reason);
 }
 
-void check_balance(AlterPatternResult& result, const PanelAlteration& panel) {
+// More than strain explains is pieces that overlap, or an opening too small to sew in a panel that is small itself.
+void check_balance(AlterPatternResult& result, const PanelAlteration& panel, double stretch_limit) {
   const double target = signed_area(panel.target);
   double off = signed_area(panel.original) - target - panel.cut_back;
   for (const AlteredRegion& region : panel.insertions) off += region.area;
   for (const AlteredRegion& region : panel.removals) off -= region.area;
-  double around = 0.0;
-  for (std::size_t i = 0; i < panel.target.size(); ++i)
-    around += (panel.target[(i + 1) % panel.target.size()] - panel.target[i]).norm();
-  if (std::abs(off) <= std::max(kMostImbalance * target, 0.5 * kLeastWay * around) ||
-      (panel.insertions.empty() && panel.removals.empty()))
-    return;
+  if (std::abs(off) <= kStrained * stretch_limit * target + kLeastOff) return;
   char share[32];
   std::snprintf(share, sizeof share, "%.1f", 100.0 * off / target);
   result.flags.push_back("panel " + panel.panel + ": pieces add up to " + share + " % more than its area");
@@ -158,20 +154,22 @@ std::vector<bool> forget_tears(const RecutPanels& recut_panels, AlterPatternResu
   return anew;
 }
 
-void sum_up(const RecutPanels& anew, AlterPatternResult& result) {
+void sum_up(const RecutPanels& anew, double stretch_limit, AlterPatternResult& result) {
   for (const auto& [p, why] : anew) {
     result.inserted_area += signed_area(result.panels[static_cast<std::size_t>(p)].target);
     result.removed_area += signed_area(result.panels[static_cast<std::size_t>(p)].original);
   }
-  for (const PanelAlteration& panel : result.panels) {
+  for (std::size_t p = 0; p < result.panels.size(); ++p) {
+    const PanelAlteration& panel = result.panels[p];
     result.original_area += signed_area(panel.original);
     result.target_area += signed_area(panel.target);
     for (const AlteredRegion& region : panel.insertions) result.inserted_area += region.area;
     for (const AlteredRegion& region : panel.removals) result.removed_area += region.area;
     result.removed_area += panel.cut_back;
+    if (anew.contains(static_cast<int>(p))) continue;
     add_flag(result, panel.panel, "inserting", panel.insertion_pass);
     add_flag(result, panel.panel, "removing", panel.removal_pass);
-    check_balance(result, panel);
+    if (panel.insertion_pass.done && panel.removal_pass.done) check_balance(result, panel, stretch_limit);
   }
   result.area_imbalance =
       std::abs(result.original_area + result.inserted_area - result.removed_area - result.target_area) /
@@ -229,7 +227,7 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
     if (anew.size() == known) break;
     known = anew.size();
   }
-  sum_up(anew, result);
+  sum_up(anew, options.stretch_limit, result);
   tell_ticket(result.sewn, result.ticket);
   const bool cut_back = std::any_of(result.panels.begin(), result.panels.end(),
                                     [](const PanelAlteration& panel) { return panel.cut_back > 0.0; });
