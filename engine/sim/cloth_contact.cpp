@@ -14,7 +14,7 @@ constexpr double kLeastReach = 0.3, kMostReach = 0.75;  // of the mean edge: les
 constexpr double kReachPerMove = 4.0;                   // reach over the largest move between two refreshes
 constexpr double kLeastGap = 1e-9;                      // m: closer features have no direction between them
 constexpr double kPlaneMargin = 0.2;                    // share of the gap that stays free on either side of a plane
-constexpr double kFloor = 0.002;  // share of the thickness below which the repulsion grows no stiffer
+constexpr double kFloor = 0.02;  // share of the thickness below which the repulsion grows no stiffer
 // Shares of the pressure that a vertex or edge near another layer answers for: both layers have vertices, and a layer
 // has three edges a vertex.
 constexpr double kVertexShare = 1.0 / 4, kEdgeShare = 1.0 / 6;
