@@ -74,8 +74,8 @@ void read_ends(const Pattern& pattern, const Sheet& sheet, TearReading& reading)
     const int beside = (reading.tear.side + (at_end ? 1 : count - 1)) % count;
     std::string& words = reading.end_words[at_end];
     if (!reading.cuts() && beside != reading.tear.side) words = edge_words(pattern, sheet, beside);
-    if (words.empty() && !reading.cuts() && !sheet.sides[static_cast<std::size_t>(reading.tear.side)].sewn)
-      words = "side";  // a hem ends at seams
+    const bool sewn = sheet.sides[static_cast<std::size_t>(reading.tear.side)].sewn;
+    if (words.empty() && !reading.cuts() && (!sewn || !reading.upright)) words = "end";  // where another seam crosses
     words = words.empty() ? place_words(place, outline) : "at the " + words;
   }
 }
@@ -104,8 +104,8 @@ TearReading read_tear(const Pattern& pattern, const Sheet& sheet, const Tear& te
   reading.names = side_names(pattern, sheet, tear.side);
   reading.mirror_name = without_left_right(spoken_list(reading.names) + (own ? " into " + panel.name : ""));
   read_mouths(sheet, own, reading);
-  read_ends(pattern, sheet, reading);
   read_heights(panel, reading);
+  read_ends(pattern, sheet, reading);
   return reading;
 }
 
