@@ -23,6 +23,14 @@ double area_of(const std::vector<AlteredRegion>& regions, Outcome& outcome) {
   return sum;
 }
 
+// Whether the ticket has the whole panel cut from new cloth: then all that was there goes.
+bool cut_anew(const AlterPatternResult& altered, const std::string& panel) {
+  for (const TicketOperation& operation : altered.ticket.operations)
+    for (const TicketSide& side : operation.sides)
+      if (operation.kind == OperationKind::CutAnew && side.panel == panel) return true;
+  return false;
+}
+
 }  // namespace
 
 void check_balance(const AlterPatternResult& altered, double stretch_limit, Outcome& outcome) {
@@ -31,7 +39,8 @@ void check_balance(const AlterPatternResult& altered, double stretch_limit, Outc
   double balance = 0.0, target = 0.0;
   for (const PanelAlteration& panel : altered.panels) {
     const double original = polygon_area(panel.original), wanted = polygon_area(panel.target),
-                 in = area_of(panel.insertions, outcome), out = area_of(panel.removals, outcome) + panel.cut_back;
+                 in = cut_anew(altered, panel.panel) ? wanted : area_of(panel.insertions, outcome),
+                 out = cut_anew(altered, panel.panel) ? original : area_of(panel.removals, outcome) + panel.cut_back;
     balance += original + in - out - wanted;
     target += wanted;
     if (!(std::abs(original + in - out - wanted) <= (2 * stretch_limit + kCrumbs) * wanted + 1e-4) && !told)
