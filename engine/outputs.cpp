@@ -5,6 +5,7 @@
 
 #include "engine/altered_pattern_record.h"
 #include "engine/core/content_hash.h"
+#include "engine/core/units.h"
 #include "engine/draw_alteration.h"
 #include "engine/io/body_json.h"
 #include "engine/io/drape_obj.h"
@@ -21,6 +22,7 @@
 #include "engine/render/drawing_picture.h"
 #include "engine/render/png.h"
 #include "engine/result_records.h"
+#include "engine/stage_options.h"
 #include "engine/stages/build_fitting_map.h"
 #include "engine/stages/draw_pattern.h"
 #include "engine/stages/render_views.h"
@@ -63,6 +65,11 @@ Record head_record(const char* kind, const AlterOptions& options, const JobInfo&
   Record record;
   record.add("schema", "toile/result/1").add("status", "done").add("kind", kind).add("toile_version", TOILE_VERSION);
   record.add("inputs", std::move(inputs)).add("options", io::options_record(options));
+  if (const auto error = measured_error(options))
+    record.add("accuracy_of_preset", Record()
+                                         .add("rms_stretch", error->stretch)
+                                         .add("rms_position_mm", error->position * kMmPerMetre)
+                                         .add("rms_pattern_mm", error->pattern * kMmPerMetre));
   return record;
 }
 

@@ -4,6 +4,13 @@
 #include "engine/core/units.h"
 
 namespace toile {
+namespace {
+
+// Of the drape, in mean node weights. At 4,000 triangles a tighter one changes neither stretch nor pattern by a tenth.
+constexpr double kDraftResidual = 1.0;
+constexpr double kFineResidual = 0.1;
+
+}  // namespace
 
 MeshPanelsOptions mesh_options_of(const AlterOptions& options) {
   return {.triangles = garment_triangles(options)};
@@ -16,7 +23,19 @@ DrapeOptions drape_options_of(const AlterOptions& options) {
   drape.pin_openings = options.pin_extremities;
   drape.fibre_slack = options.fibre_slack;
   drape.shear_limit_deg = options.shear_limit_deg;
+  if (options.preset == Preset::Draft) drape.stop_residual = kDraftResidual;
+  if (options.preset == Preset::Fine) drape.stop_residual = kFineResidual;
   return drape;
+}
+
+std::optional<PresetError> measured_error(const AlterOptions& options) {
+  if (options.triangles || options.solver != SolverKind::Default) return std::nullopt;
+  switch (options.preset) {
+    case Preset::Draft: return PresetError{0.0086, 9.0e-3, 2.6e-3};
+    case Preset::Standard: return PresetError{0.0077, 9.0e-3, 1.9e-3};
+    case Preset::Fine: return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 DerivePatternOptions derive_options_of(const AlterOptions&) {

@@ -204,7 +204,10 @@ class Draper {
     d.stalled = relaxed.stalled;
     result_.quality.residual = relaxed.residual;
     result_.quality.settling_move = relaxed.last_move;
-    result_.quality.rest = relaxed.converged ? Rest::Converged : relaxed.settled ? Rest::Settled : Rest::NotAtRest;
+    const bool at_rest = relaxed.residual < DrapeOptions().stop_residual;  // whatever was asked for
+    result_.quality.rest = at_rest                                ? Rest::Converged
+                           : relaxed.converged || relaxed.settled ? Rest::Settled
+                                                                  : Rest::NotAtRest;
     if (options_.solver == SolverKind::Newton) refine(energy, relaxed.nodes);
   }
 

@@ -11,7 +11,7 @@
 namespace toile::bench {
 namespace {
 
-constexpr double kWidth = 760, kHeight = 460, kLeft = 80, kRight = 190, kTop = 40, kBottom = 60;
+constexpr double kWidth = 800, kHeight = 460, kLeft = 80, kRight = 230, kTop = 40, kBottom = 60;
 constexpr std::array<const char*, 8> kColours = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd",
                                                  "#ff7f0e", "#17becf", "#8c564b", "#7f7f7f"};
 
