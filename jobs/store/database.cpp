@@ -17,7 +17,12 @@ constexpr const char* kWriterPragmas =
     "PRAGMA secure_delete=ON;"
     "PRAGMA temp_store=MEMORY;"
     "PRAGMA wal_autocheckpoint=4000;"
+    "PRAGMA cache_size=-1024;"
     "PRAGMA journal_size_limit=67108864;";
+
+// As many readers as requests at a time: with 2 MB each, the default, memory would grow with the database for hours.
+// Pages are in the system's cache anyway.
+constexpr const char* kReaderPragmas = "PRAGMA cache_size=-256";
 
 std::string check(Connection& connection, const char* pragma) {
   Statement rows = connection.query(pragma);
@@ -60,6 +65,7 @@ Reader::Reader(Database& database) : database_(database) {
     }
   }
   connection_ = std::make_unique<Connection>(database.file_, Connection::Access::ReadOnly);
+  connection_->run_script(kReaderPragmas);
 }
 
 Reader::~Reader() {
