@@ -176,6 +176,7 @@ void WorkerPool::report_progress(bool all) {
   for (const auto& state : states) {
     const ProgressReport report = state->progress();
     const std::lock_guard lock(lock_);
+    if (std::find(running_.begin(), running_.end(), state) == running_.end()) continue;  // it ended meanwhile
     ProgressReport& last = reported_[report.lease.job];
     const bool news = report.stage != last.stage || report.progress != last.progress;
     if (!all && !news) continue;

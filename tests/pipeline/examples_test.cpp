@@ -117,9 +117,10 @@ TEST(ShippedExamples, TheLeggingsAreDerivedForAnAdult) {
 }
 
 TEST(SlowShippedExamples, AreDerivedForFiveMannequins) {
+  constexpr int kTriangles = 4000;  // coarser legs of trousers that touch cross each other
   for (const Example& example : kExamples)
     for (const char* target : test::kFiveMannequins)
-      if (std::string(target) != example.wearer) expect_derived(example, target, 2000);
+      if (std::string(target) != example.wearer) expect_derived(example, target, kTriangles);
 }
 
 }  // namespace
