@@ -27,7 +27,7 @@ struct Range {
   bool holds(double v) const { return v >= low && v <= high; }
 };
 constexpr Range kCrotchUsual{0.40, 0.52}, kArmpitUsual{0.68, 0.80}, kNeckUsual{0.80, 0.895},
-    kNeckGirthUsual{0.17, 0.35};
+    kNeckGirthUsual{0.15, 0.35};
 constexpr Range kArmUsual{0.33, 0.50};
 constexpr double kArmsDiffer = 0.06;
 

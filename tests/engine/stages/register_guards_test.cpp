@@ -139,6 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, SlowRegisterVariants,
                                          Variant{kMean, "ggg_large_male", 102, 13, 26},
                                          Variant{kWoman, "mh_female_heavy_short", 103, 15.6, 39},
                                          Variant{kWoman, "mh_child_8y", 104, 15.6, 39},
+                                         Variant{kWoman, "mh_female_thin_tall", 37, 15.6, 39},
                                          Variant{kWoman, "mh_male_average", 105, 20.8, 58.5}));
 
 }  // namespace
