@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <string>
 
@@ -50,6 +51,8 @@ int report_error(const toile::Error& error) {
 
 int main(int argc, char** argv) {
   using namespace toile;
+  // The rasteriser of pictures would start a thread for every core and spend more on sharing tiles out than it saves.
+  setenv("LP_NUM_THREADS", "0", 0);
   std::signal(SIGINT, cancel_on_signal);
   std::signal(SIGTERM, cancel_on_signal);
   std::signal(SIGPIPE, SIG_IGN);
