@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/fit_reflection.h"
+
 namespace toile {
 namespace {
 
@@ -37,15 +39,9 @@ std::optional<PanelTwin> fit(const Sheet& from, const Sheet& to, std::size_t shi
     from_centre += p / static_cast<double>(pairs.size());
     to_centre += q / static_cast<double>(pairs.size());
   }
-  double c = 0.0, s = 0.0;
-  for (const auto& [p, q] : pairs) {
-    const Vec2 a = p - from_centre, b = q - to_centre;
-    c += a.x() * b.x() - a.y() * b.y();
-    s += a.y() * b.x() + a.x() * b.y();
-  }
-  const double length = std::hypot(c, s);
-  if (length == 0.0) return std::nullopt;
-  twin.reflection << c / length, s / length, s / length, -c / length;
+  const auto reflection = fit_reflection(pairs, from_centre, to_centre);
+  if (!reflection) return std::nullopt;
+  twin.reflection = *reflection;
   for (const auto& [p, q] : pairs)
     if ((twin.reflection * (p - from_centre) - (q - to_centre)).norm() > kCorner) return std::nullopt;
   return twin;

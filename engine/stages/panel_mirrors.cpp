@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/geometry/curve.h"
+#include "engine/geometry/fit_reflection.h"
 
 namespace toile {
 
@@ -51,16 +52,10 @@ std::optional<PanelMirror> fit(const Outline& from, const Outline& to, int shift
       from_centre += pairs.back().first, to_centre += pairs.back().second;
     }
   from_centre /= static_cast<double>(pairs.size()), to_centre /= static_cast<double>(pairs.size());
-  double c = 0.0, s = 0.0;
-  for (const auto& [p, q] : pairs) {
-    const Vec2 a = p - from_centre, b = q - to_centre;
-    c += a.x() * b.x() - a.y() * b.y();
-    s += a.y() * b.x() + a.x() * b.y();
-  }
-  const double length = std::hypot(c, s);
-  if (length == 0.0) return std::nullopt;
+  const auto reflection = fit_reflection(pairs, from_centre, to_centre);
+  if (!reflection) return std::nullopt;
   PanelMirror mirror;
-  mirror.reflection << c / length, s / length, s / length, -c / length;
+  mirror.reflection = *reflection;
   mirror.offset = to_centre - mirror.reflection * from_centre;
   for (const auto& [p, q] : pairs)
     if ((mirror.reflection * p + mirror.offset - q).norm() > kTolerance) return std::nullopt;

@@ -12,6 +12,7 @@
 #include "engine/stages/find_skeleton.h"
 #include "engine/stages/import_body.h"
 #include "engine/stages/measure_body.h"
+#include "tests/support/registration/prepared_reference.h"
 #include "tests/support/registration/registration_score.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/shared_data.h"
@@ -26,13 +27,7 @@ using test::RegistrationScore;
 constexpr const char* kWoman = "mh_female_average";
 constexpr const char* kMean = "ggg_mean_all";
 
-// Prepared once: most tests share the two references.
-const RegistrationReference& reference(const std::string& name) {
-  static std::map<std::string, RegistrationReference> prepared;
-  const auto found = prepared.find(name);
-  if (found != prepared.end()) return found->second;
-  return prepared.emplace(name, prepare_reference(test::load_shared_body(name))).first->second;
-}
+using test::reference;
 
 struct Limits {
   double median, p95;  // mm

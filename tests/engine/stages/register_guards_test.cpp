@@ -9,6 +9,7 @@
 #include "engine/stages/import_body.h"
 #include "engine/stages/register_bodies.h"
 #include "tests/support/registration/posed_body.h"
+#include "tests/support/registration/prepared_reference.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/solids.h"
@@ -19,12 +20,7 @@ namespace {
 constexpr const char* kWoman = "mh_female_average";
 constexpr const char* kMean = "ggg_mean_all";
 
-const RegistrationReference& reference(const std::string& name) {
-  static std::map<std::string, RegistrationReference> prepared;
-  const auto found = prepared.find(name);
-  if (found != prepared.end()) return found->second;
-  return prepared.emplace(name, prepare_reference(test::load_shared_body(name))).first->second;
-}
+using test::reference;
 
 template <class Keep>
 TriangleMesh kept(const TriangleMesh& mesh, Keep keep) {
