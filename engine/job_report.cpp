@@ -80,10 +80,10 @@ std::vector<std::string> summary_sentences(const AlterResult& result, const JobF
   return sentences;
 }
 
-io::HtmlTable zone_table(const JobFits& fits) {
-  io::HtmlTable table{"Mean stretch beyond that of the reference fit: + tighter, - looser",
-                      {"zone", "before, weft", "before, warp"},
-                      {}};
+HtmlTable zone_table(const JobFits& fits) {
+  HtmlTable table{"Mean stretch beyond that of the reference fit: + tighter, - looser",
+                  {"zone", "before, weft", "before, warp"},
+                  {}};
   if (fits.after) table.columns.insert(table.columns.end(), {"after, weft", "after, warp"});
   table.columns.insert(table.columns.end(), {"ideal, weft", "ideal, warp"});
   const auto add = [&](std::string_view zone, const auto& difference) {
@@ -102,12 +102,12 @@ io::HtmlTable zone_table(const JobFits& fits) {
   return table;
 }
 
-io::HtmlTable drape_quality_table(const AlterResult& r) {
+HtmlTable drape_quality_table(const AlterResult& r) {
   std::vector<std::pair<const char*, const DrapeQuality*>> drapes = {{"reference", &r.reference.drape.quality},
                                                                      {"before", &r.before.quality}};
   if (r.after && r.after->problem.empty()) drapes.emplace_back("after", &r.after->drape.quality);
   drapes.emplace_back("ideal", &r.derived.drape.quality);
-  io::HtmlTable table{"How sound the simulated drapes are", {""}, {}};
+  HtmlTable table{"How sound the simulated drapes are", {""}, {}};
   for (const auto& [name, quality] : drapes) table.columns.emplace_back(name);
   const auto add = [&](const char* what, const auto& words) {
     table.rows.push_back({what});

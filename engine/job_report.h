@@ -21,7 +21,7 @@ std::string readable_garment_name(const std::string& name);
 
 // What was done and what came of it, with everything that the reader must know before cutting.
 std::vector<std::string> summary_sentences(const AlterResult& result, const JobFits& fits);
-io::HtmlTable zone_table(const JobFits& fits);
-io::HtmlTable drape_quality_table(const AlterResult& result);
+HtmlTable zone_table(const JobFits& fits);
+HtmlTable drape_quality_table(const AlterResult& result);
 
 }  // namespace toile

@@ -36,12 +36,12 @@ constexpr const char* kPng = "image/png";
 constexpr const char* kSvg = "image/svg+xml";
 constexpr const char* kHtml = "text/html; charset=utf-8";
 // The printed pattern for each kind of printer.
-constexpr std::array<std::pair<const char*, io::PdfSheet>, 4> kPrints = {
-    {{"altered_pattern.pdf", io::PdfSheet::A4},
-     {"altered_pattern_letter.pdf", io::PdfSheet::Letter},
-     {"altered_pattern_a0.pdf", io::PdfSheet::A0},
-     {"altered_pattern_projector.pdf", io::PdfSheet::Projector}}};
-const io::SvgOptions kInlined{.test_square = false, .inlined = true};
+constexpr std::array<std::pair<const char*, PdfSheet>, 4> kPrints = {
+    {{"altered_pattern.pdf", PdfSheet::A4},
+     {"altered_pattern_letter.pdf", PdfSheet::Letter},
+     {"altered_pattern_a0.pdf", PdfSheet::A0},
+     {"altered_pattern_projector.pdf", PdfSheet::Projector}}};
+const SvgOptions kInlined{.test_square = false, .inlined = true};
 
 Bytes bytes_of(const std::string& text) {
   return Bytes(text.begin(), text.end());
@@ -64,7 +64,7 @@ Record head_record(const char* kind, const AlterOptions& options, const JobInfo&
   for (const InputInfo& body : info.bodies) add_input(inputs, body);
   Record record;
   record.add("schema", "toile/result/1").add("status", "done").add("kind", kind).add("toile_version", TOILE_VERSION);
-  record.add("inputs", std::move(inputs)).add("options", io::options_record(options));
+  record.add("inputs", std::move(inputs)).add("options", options_record(options));
   if (const auto error = measured_error(options))
     record.add("accuracy_of_preset", Record()
                                          .add("rms_stretch", error->stretch)
@@ -142,7 +142,7 @@ class AlterationFiles {
   const JobFits fits_;
   Box frame_;
   OnDemand<Drawing> drawing_{[this] { return draw_alteration(r_.reference.pattern, r_.altered); }};
-  OnDemand<Bytes> inlined_{[this] { return io::write_svg(drawing_.value(), kInlined); }};
+  OnDemand<Bytes> inlined_{[this] { return write_svg(drawing_.value(), kInlined); }};
   OnDemand<Bytes> fit_reference_{[this] {
     const DrapedGarment& garment = r_.reference;
     return picture(garment.body, garment.mesh, garment.drape, garment.fit, nullptr, "reference");
@@ -188,36 +188,33 @@ Bytes AlterationFiles::transport_picture() const {
 void AlterationFiles::make_patterns() {
   if (!r_.altered.sewn.pieces.empty())
     files_.make("altered_pattern.json", kJson, [this] {
-      return bytes_of(io::write_altered_pattern(r_.altered.sewn.pattern, altered_pattern_record(r_.altered)));
+      return bytes_of(write_altered_pattern(r_.altered.sewn.pattern, altered_pattern_record(r_.altered)));
     });
-  files_.make("altered_pattern.svg", kSvg, [this] { return io::write_svg(drawing_.value()); });
-  files_.make("altered_pattern.dxf", "image/vnd.dxf", [this] { return io::write_dxf(drawing_.value()); });
+  files_.make("altered_pattern.svg", kSvg, [this] { return write_svg(drawing_.value()); });
+  files_.make("altered_pattern.dxf", "image/vnd.dxf", [this] { return write_dxf(drawing_.value()); });
   for (const auto& [name, sheet] : kPrints)
-    files_.make(name, "application/pdf", [this, paper = sheet] {
-      return io::write_pdf(drawing_.value(), {paper, {}});
-    });
+    files_.make(name, "application/pdf", [this, paper = sheet] { return write_pdf(drawing_.value(), {paper, {}}); });
   files_.make("pattern.png", kPng, [this] { return write_png(draw_picture(drawing_.value())); });
   files_.make_if_named("tears.png", kPng,
                        [this] { return write_png(draw_picture(draw_tears(r_.reference.pattern, r_.altered))); });
   const Pattern& target = r_.derived.drawn.pattern;
-  files_.make("target_pattern.json", kJson, [&] { return bytes_of(io::write_garmentcode(target)); });
-  files_.make("target_pattern.svg", kSvg, [&] { return io::write_svg(draw_changes(r_.reference.pattern, target)); });
+  files_.make("target_pattern.json", kJson, [&] { return bytes_of(write_garmentcode(target)); });
+  files_.make("target_pattern.svg", kSvg, [&] { return write_svg(draw_changes(r_.reference.pattern, target)); });
 }
 
 void AlterationFiles::make_ticket() {
-  files_.make("ticket.json", kJson, [this] { return write_json(io::ticket_record(ticket_)); });
-  files_.make("ticket.html", kHtml, [this] { return io::write_ticket_html(ticket_, inlined_.value()); });
+  files_.make("ticket.json", kJson, [this] { return write_json(ticket_record(ticket_)); });
+  files_.make("ticket.html", kHtml, [this] { return write_ticket_html(ticket_, inlined_.value()); });
 }
 
 void AlterationFiles::make_meshes() {
   const Pattern& pattern = r_.reference.pattern;
   const PatternMesh& mesh = r_.reference.mesh;
-  files_.make("reference_drape.obj", kObj,
-              [&] { return io::write_drape_obj(pattern, mesh, r_.reference.drape.drape); });
-  files_.make("target_before.obj", kObj, [&] { return io::write_drape_obj(pattern, mesh, r_.before.drape); });
+  files_.make("reference_drape.obj", kObj, [&] { return write_drape_obj(pattern, mesh, r_.reference.drape.drape); });
+  files_.make("target_before.obj", kObj, [&] { return write_drape_obj(pattern, mesh, r_.before.drape); });
   if (fits_.after)
     files_.make("target_after.obj", kObj,
-                [this] { return io::write_drape_obj(r_.altered.sewn.pattern, r_.after->mesh, r_.after->drape.drape); });
+                [this] { return write_drape_obj(r_.altered.sewn.pattern, r_.after->mesh, r_.after->drape.drape); });
 }
 
 void AlterationFiles::make_pictures() {
@@ -233,7 +230,7 @@ void AlterationFiles::make_pictures() {
 }
 
 Bytes AlterationFiles::report() {
-  io::Report report;
+  Report report;
   report.title = ticket_.garment;
   report.subtitle = "from " + ticket_.reference_body + " to " + ticket_.target_body;
   report.summary = summary_sentences(r_, fits_);
@@ -249,8 +246,8 @@ Bytes AlterationFiles::report() {
   report.quality = {drape_quality_table(r_)};
   report.findings = r_.altered.flags;
   for (const auto& [name, value] : r_.target_body.measurements) report.measurements.add(name + "_m", value);
-  report.options = io::options_record(options_);
-  return io::write_report_html(report);
+  report.options = options_record(options_);
+  return write_report_html(report);
 }
 
 Record AlterationFiles::result() const {
@@ -278,7 +275,7 @@ Record AlterationFiles::result() const {
   bodies.add("reference", describe_body(r_.reference.body)).add("target", describe_body(r_.target_body));
   Record result = head_record("alter", options_, info_);
   result.add("quality", std::move(quality))
-      .add("alterations", *io::ticket_record(ticket_).find("operations"))
+      .add("alterations", *ticket_record(ticket_).find("operations"))
       .add("fits", std::move(compared_fits))
       .add("stages", std::move(stages))
       .add("bodies", std::move(bodies));
@@ -299,7 +296,7 @@ JobInfo job_info(const GarmentInput& garment, const BodyInput& reference_body, c
 
 std::vector<OutputFile> drape_outputs(const DrapedGarment& draped, const AlterOptions& options, const JobInfo& info) {
   OutputFiles files(options.outputs);
-  files.make("drape.obj", kObj, [&] { return io::write_drape_obj(draped.pattern, draped.mesh, draped.drape.drape); });
+  files.make("drape.obj", kObj, [&] { return write_drape_obj(draped.pattern, draped.mesh, draped.drape.drape); });
   files.make("fit.png", kPng, [&] {
     return render_views(&draped.body.surface, &draped.mesh, &draped.drape.drape, &draped.fit, views_of("fit"));
   });

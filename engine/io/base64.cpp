@@ -5,7 +5,7 @@
 
 #include "engine/io/text_format.h"
 
-namespace toile::io {
+namespace toile {
 
 std::string base64(std::span<const std::uint8_t> bytes) {
   static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -26,4 +26,4 @@ std::string data_uri(std::string_view content_type, std::span<const std::uint8_t
   return uri;
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -8,11 +8,11 @@
 
 #include "engine/core/types.h"
 
-namespace toile::io {
+namespace toile {
 
 std::string base64(std::span<const std::uint8_t> bytes);
 
 // "data:TYPE;base64,...", for the src attribute of an image.
 std::string data_uri(std::string_view content_type, std::span<const std::uint8_t> bytes);
 
-}  // namespace toile::io
+}  // namespace toile

@@ -20,8 +20,8 @@ constexpr double kMaxMeasurement = 5.0;  // m: no tape measure of a person is lo
 template <class Read>
 auto read_document(std::span<const std::uint8_t> bytes, const std::string& subject, Read read) {
   try {
-    const nlohmann::json document = io::parse_json(bytes, {});
-    return read(io::JsonView(document));
+    const nlohmann::json document = parse_json(bytes, {});
+    return read(JsonView(document));
   } catch (const Error& error) {
     throw Error(error.code, subject, (error.subject.empty() ? "" : error.subject + ": ") + error.message);
   }
@@ -31,7 +31,7 @@ std::vector<double> coordinates(const Vec3& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-Landmarks read_points(const io::JsonView& object) {
+Landmarks read_points(const JsonView& object) {
   const auto members = object.members();
   if (members.size() > kMaxNames)
     object.fail("more than 500 landmarks; give those of the body only", ErrorCode::LimitExceeded);
@@ -63,7 +63,7 @@ Record describe_body(const Body& body) {
 }
 
 GivenLandmarks read_landmarks(std::span<const std::uint8_t> bytes, const std::string& subject) {
-  return read_document(bytes, subject, [](const io::JsonView& root) {
+  return read_document(bytes, subject, [](const JsonView& root) {
     GivenLandmarks given;
     const auto normalised = root.find("landmarks_m");
     given.in_file_frame = !normalised;
@@ -85,13 +85,13 @@ bool looks_like_json(std::span<const std::uint8_t> bytes) {
 }
 
 MeasurementsDocument read_measurements(std::span<const std::uint8_t> bytes, const std::string& subject) {
-  return read_document(bytes, subject, [](const io::JsonView& root) {
+  return read_document(bytes, subject, [](const JsonView& root) {
     root.require_only({"schema", "figure", "measurements_m", "measurements_cm"});
     MeasurementsDocument document;
     if (const auto figure = root.find("figure")) document.figure = figure->text();
     const auto metres = root.find("measurements_m");
     const double unit = metres ? 1.0 : kMetrePerCm;
-    const io::JsonView object = metres ? *metres : root.at("measurements_cm");
+    const JsonView object = metres ? *metres : root.at("measurements_cm");
     const auto members = object.members();
     if (members.size() > kMaxNames) object.fail("more than 500 measurements", ErrorCode::LimitExceeded);
     for (const auto& [name, value] : members)

@@ -5,7 +5,7 @@
 
 #include "engine/core/units.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 class Text {
@@ -51,4 +51,4 @@ Bytes write_drape_obj(const Pattern& pattern, const PatternMesh& mesh, const Dra
   return out.take();
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -9,8 +9,8 @@
 #include "engine/core/pattern.h"
 #include "engine/core/pattern_mesh.h"
 
-namespace toile::io {
+namespace toile {
 
 Bytes write_drape_obj(const Pattern& pattern, const PatternMesh& mesh, const Drape& drape);
 
-}  // namespace toile::io
+}  // namespace toile

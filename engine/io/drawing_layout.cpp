@@ -3,7 +3,7 @@
 
 #include "engine/geometry/shelf_layout.h"
 
-namespace toile::io {
+namespace toile {
 
 SheetLayout lay_out(const Drawing& drawing, const SheetLayoutOptions& options) {
   std::vector<Vec2> sizes, lows;
@@ -21,4 +21,4 @@ SheetLayout lay_out(const Drawing& drawing, const SheetLayoutOptions& options) {
   return layout;
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -4,7 +4,7 @@
 
 #include "engine/core/drawing.h"
 
-namespace toile::io {
+namespace toile {
 
 struct SheetLayout {
   std::vector<Vec2> shifts;  // added to a piece's own coordinates, mm, y up; one per piece
@@ -21,4 +21,4 @@ struct SheetLayoutOptions {
 // Pieces side by side without overlap, tallest first.
 SheetLayout lay_out(const Drawing& drawing, const SheetLayoutOptions& options = {});
 
-}  // namespace toile::io
+}  // namespace toile

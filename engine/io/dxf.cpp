@@ -8,7 +8,7 @@
 #include <numbers>
 #include <set>
 
-namespace toile::io {
+namespace toile {
 
 namespace {
 
@@ -288,4 +288,4 @@ Bytes write_dxf(const Drawing& drawing, const DxfOptions& options) {
   return DxfWriter(drawing, options).write();
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -10,7 +10,7 @@
 
 #include "engine/core/drawing.h"
 
-namespace toile::io {
+namespace toile {
 
 enum class DxfDialect { Astm, Aama };
 
@@ -26,4 +26,4 @@ struct DxfOptions {
 
 Bytes write_dxf(const Drawing& drawing, const DxfOptions& options = {});
 
-}  // namespace toile::io
+}  // namespace toile

@@ -11,7 +11,7 @@
 #include "engine/io/json.h"
 #include "engine/io/toile_block.h"
 
-namespace toile::io {
+namespace toile {
 
 namespace {
 
@@ -203,4 +203,4 @@ Pattern read_garmentcode(std::span<const std::uint8_t> bytes) {
   return SpecificationReader(JsonView(document)).read();
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -13,7 +13,7 @@
 #include "engine/core/pattern.h"
 #include "engine/core/record.h"
 
-namespace toile::io {
+namespace toile {
 
 inline constexpr int kMaxPanels = 200;
 inline constexpr int kMaxEdgesPerPanel = 2000;
@@ -34,4 +34,4 @@ std::string write_altered_pattern(const Pattern& pattern, const Record& alterati
 // The turn of a placement: about the fixed world axes X, then Y, then Z, in degrees.
 Mat3 rotation_of_degrees(const Vec3& degrees);
 
-}  // namespace toile::io
+}  // namespace toile

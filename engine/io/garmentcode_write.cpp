@@ -8,7 +8,7 @@
 #include "engine/io/record_json.h"
 #include "engine/io/toile_block.h"
 
-namespace toile::io {
+namespace toile {
 
 using nlohmann::json;
 
@@ -113,4 +113,4 @@ std::string write_altered_pattern(const Pattern& pattern, const Record& alterati
   return document.dump(1) + "\n";
 }
 
-}  // namespace toile::io
+}  // namespace toile

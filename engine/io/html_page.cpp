@@ -6,7 +6,7 @@
 #include "engine/io/base64.h"
 #include "engine/io/text_format.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 constexpr std::string_view kStyle = R"(
@@ -144,4 +144,4 @@ Bytes HtmlPage::finish() const {
   return Bytes(page.begin(), page.end());
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -8,7 +8,7 @@
 #include "engine/core/record.h"
 #include "engine/core/types.h"
 
-namespace toile::io {
+namespace toile {
 
 struct HtmlTable {
   std::string title;                           // caption, may be empty
@@ -38,4 +38,4 @@ class HtmlPage {
   std::string body_;
 };
 
-}  // namespace toile::io
+}  // namespace toile

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace toile::io {
+namespace toile {
 
 using nlohmann::json;
 
@@ -226,4 +226,4 @@ Vec3 JsonView::vector3(double bound) const {
   return {at(std::size_t{0}).number(-bound, bound), at(1).number(-bound, bound), at(2).number(-bound, bound)};
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -18,7 +18,7 @@
 #include "engine/core/error.h"
 #include "engine/core/types.h"
 
-namespace toile::io {
+namespace toile {
 
 inline constexpr int kMaxJsonDepth = 64;
 inline constexpr std::size_t kMaxJsonValues = 1'000'000;  // bounds the memory of a document to about 130 MB
@@ -70,4 +70,4 @@ class JsonView {
 // One step of a JSON pointer, with ~ and / escaped.
 std::string pointer_step(std::string_view key);
 
-}  // namespace toile::io
+}  // namespace toile

@@ -11,7 +11,7 @@
 #include "engine/io/garmentcode_json.h"
 #include "engine/io/obj_sidecar.h"
 
-namespace toile::io {
+namespace toile {
 
 namespace {
 
@@ -283,4 +283,4 @@ ObjGarment read_obj_garment(std::span<const std::uint8_t> bytes, const std::stri
   return garment;
 }
 
-}  // namespace toile::io
+}  // namespace toile

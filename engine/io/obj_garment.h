@@ -21,7 +21,7 @@
 #include "engine/core/pattern.h"
 #include "engine/core/pattern_mesh.h"
 
-namespace toile::io {
+namespace toile {
 
 struct ObjGarmentOptions {
   std::optional<double> metre_per_uv_unit;  // 0.001, 0.01 or 1; empty: found by comparing flat and draped areas
@@ -38,4 +38,4 @@ struct ObjGarment {
 ObjGarment read_obj_garment(std::span<const std::uint8_t> bytes, const std::string& name,
                             const ObjGarmentOptions& options = {});
 
-}  // namespace toile::io
+}  // namespace toile

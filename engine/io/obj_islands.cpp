@@ -10,7 +10,7 @@
 #include "engine/geometry/disjoint_sets.h"
 #include "engine/io/garmentcode_json.h"
 
-namespace toile::io {
+namespace toile {
 
 namespace {
 
@@ -186,4 +186,4 @@ ObjIslands find_islands(const ObjTextured& obj, const std::string& name) {
   return IslandBuilder(obj, name).build();
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -9,7 +9,7 @@
 
 #include "engine/core/types.h"
 
-namespace toile::io {
+namespace toile {
 
 // As in the file, polygons cut into triangles. File units.
 struct ObjTextured {
@@ -40,4 +40,4 @@ ObjTextured read_textured_obj(std::span<const std::uint8_t> bytes, const std::st
 // Throws Error{GarmentInvalid} for islands with holes, folds, pinched outlines or faces of both turns.
 ObjIslands find_islands(const ObjTextured& obj, const std::string& name);
 
-}  // namespace toile::io
+}  // namespace toile

@@ -8,7 +8,7 @@
 
 #include "engine/geometry/disjoint_sets.h"
 
-namespace toile::io {
+namespace toile {
 
 namespace {
 
@@ -189,4 +189,4 @@ OutlineEdges cut_outlines(const ObjIslands& islands, BorderSegments& borders) {
   return edges;
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -9,7 +9,7 @@
 #include "engine/core/pattern.h"
 #include "engine/io/obj_islands.h"
 
-namespace toile::io {
+namespace toile {
 
 // All outlines one after another: segment i of an island runs from its outline vertex i to the next.
 struct BorderSegments {
@@ -43,4 +43,4 @@ void cut_at(BorderSegments& borders, int segment);
 // Cuts the outlines and collects edges and seams.
 OutlineEdges cut_outlines(const ObjIslands& islands, BorderSegments& borders);
 
-}  // namespace toile::io
+}  // namespace toile

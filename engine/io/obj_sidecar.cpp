@@ -10,7 +10,7 @@
 #include "engine/io/json.h"
 #include "engine/io/toile_block.h"
 
-namespace toile::io {
+namespace toile {
 
 namespace {
 
@@ -97,4 +97,4 @@ void apply_sidecar_panels(std::span<const std::uint8_t> sidecar, Pattern& patter
   if (const auto block = root.find("toile")) read_toile_block(*block, kMetrePerCm, pattern);
 }
 
-}  // namespace toile::io
+}  // namespace toile

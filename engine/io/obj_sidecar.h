@@ -4,7 +4,7 @@
 
 #include "engine/io/obj_outlines.h"
 
-namespace toile::io {
+namespace toile {
 
 struct NamedSeam {
   int a = 0, b = 0;  // border segments that the two sides begin with, each along its own outline
@@ -20,4 +20,4 @@ bool sidecar_names_seams(std::span<const std::uint8_t> sidecar);
 // Labels, placements and the toile block, once the panels and edges are known.
 void apply_sidecar_panels(std::span<const std::uint8_t> sidecar, Pattern& pattern);
 
-}  // namespace toile::io
+}  // namespace toile

@@ -6,7 +6,7 @@
 #include "engine/io/obj_islands.h"
 #include "engine/io/text_scanner.h"
 
-namespace toile::io {
+namespace toile {
 
 namespace {
 
@@ -122,4 +122,4 @@ ObjTextured read_textured_obj(std::span<const std::uint8_t> bytes, const std::st
   return Reader(bytes, name).read();
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -7,7 +7,7 @@
 
 #include "engine/io/record_json.h"
 
-namespace toile::io {
+namespace toile {
 
 using nlohmann::json;
 
@@ -199,4 +199,4 @@ std::vector<OptionInfo> list_options() {
   return std::move(lister.options);
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -11,7 +11,7 @@
 #include "engine/core/types.h"
 #include "engine/io/json.h"
 
-namespace toile::io {
+namespace toile {
 
 // Options left out keep their defaults, null counts as left out. Throws Error{OptionInvalid} (unknown name, wrong type,
 // out of range) whose subject is the JSON pointer, Error{FileMalformed, LimitExceeded} when the bytes are not JSON.
@@ -37,4 +37,4 @@ struct OptionInfo {
 };
 std::vector<OptionInfo> list_options();
 
-}  // namespace toile::io
+}  // namespace toile

@@ -10,7 +10,7 @@
 #include "engine/io/pdf_tiles.h"
 #include "engine/io/text_format.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 constexpr double kPointsPerMm = 72.0 / 25.4;
@@ -211,4 +211,4 @@ Bytes write_pdf(const Drawing& drawing, const PdfOptions& options) {
   return PdfWriter(drawing, options).write();
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -12,7 +12,7 @@
 
 #include "engine/core/drawing.h"
 
-namespace toile::io {
+namespace toile {
 
 enum class PdfSheet { A4, Letter, A0, Projector };
 
@@ -23,4 +23,4 @@ struct PdfOptions {
 
 Bytes write_pdf(const Drawing& drawing, const PdfOptions& options = {});
 
-}  // namespace toile::io
+}  // namespace toile

@@ -7,7 +7,7 @@
 #include "engine/io/pdf_document.h"
 #include "engine/io/text_format.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 constexpr double kCapitals = 0.718;  // height of Helvetica's capitals over the font size
@@ -128,4 +128,4 @@ void PdfContent::piece(const DrawingPiece& piece, const Vec2& shift) {
     text(label.at + shift, label.height, label.text, PdfAlign::Middle, label.angle);
 }
 
-}  // namespace toile::io
+}  // namespace toile

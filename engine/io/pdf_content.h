@@ -8,7 +8,7 @@
 
 #include "engine/core/drawing.h"
 
-namespace toile::io {
+namespace toile {
 
 struct PdfStroke {
   std::array<double, 3> colour = {0.1, 0.1, 0.12};  // RGB, 0..1
@@ -45,4 +45,4 @@ class PdfContent {
 // Width of a text in Helvetica whose capitals are `height` tall, same unit. Latin-1 beyond ASCII counts as a digit.
 double helvetica_width(std::string_view utf8, double height);
 
-}  // namespace toile::io
+}  // namespace toile

@@ -5,7 +5,7 @@
 
 #include "engine/io/text_format.h"
 
-namespace toile::io {
+namespace toile {
 
 int PdfDocument::reserve() {
   return add({});
@@ -66,4 +66,4 @@ std::string pdf_string(std::string_view utf8) {
   return text;
 }
 
-}  // namespace toile::io
+}  // namespace toile

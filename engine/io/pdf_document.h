@@ -8,7 +8,7 @@
 
 #include "engine/core/types.h"
 
-namespace toile::io {
+namespace toile {
 
 class PdfDocument {
  public:
@@ -31,4 +31,4 @@ std::string pdf_reference(int object);
 // A string object; UTF-8 becomes Latin-1 (WinAnsi), what has no place there a question mark.
 std::string pdf_string(std::string_view utf8);
 
-}  // namespace toile::io
+}  // namespace toile

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 // Does the segment reach into the box? Exact but for rounding: by clipping (Liang and Barsky).
@@ -60,4 +60,4 @@ Tiling tile_sheet(const Drawing& drawing, const SheetLayout& layout, const Paper
   return tiling;
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -6,7 +6,7 @@
 
 #include "engine/io/drawing_layout.h"
 
-namespace toile::io {
+namespace toile {
 
 struct Paper {
   Vec2 size = Vec2::Zero();  // mm
@@ -30,4 +30,4 @@ struct Tiling {
 // Tiles of the sheet that a piece's box or line touches.
 Tiling tile_sheet(const Drawing& drawing, const SheetLayout& layout, const Paper& paper);
 
-}  // namespace toile::io
+}  // namespace toile

@@ -3,7 +3,7 @@
 
 #include "engine/io/ticket_document.h"
 
-namespace toile::io {
+namespace toile {
 
 namespace {
 void add_pictures(const std::vector<ReportPicture>& pictures, HtmlPage& page) {
@@ -51,4 +51,4 @@ Bytes write_report_html(const Report& report) {
   return page.finish();
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -6,7 +6,7 @@
 #include "engine/core/ticket.h"
 #include "engine/io/html_page.h"
 
-namespace toile::io {
+namespace toile {
 
 struct ReportPicture {
   Bytes png;
@@ -29,4 +29,4 @@ struct Report {
 // Sections without content are left out.
 Bytes write_report_html(const Report& report);
 
-}  // namespace toile::io
+}  // namespace toile

@@ -18,7 +18,7 @@
 #include "engine/io/options_json.h"
 #include "engine/io/schema_texts.h"
 
-namespace toile::io {
+namespace toile {
 
 using nlohmann::json;
 
@@ -126,4 +126,4 @@ SchemaCheck check_schema(std::span<const std::uint8_t> bytes, const std::string&
   return result;
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -8,7 +8,7 @@
 
 #include "engine/core/types.h"
 
-namespace toile::io {
+namespace toile {
 
 struct SchemaProblem {
   std::string pointer;  // JSON pointer into the document
@@ -29,4 +29,4 @@ std::vector<std::string> schema_names();
 // no schema fits.
 SchemaCheck check_schema(std::span<const std::uint8_t> document, const std::string& schema = {});
 
-}  // namespace toile::io
+}  // namespace toile

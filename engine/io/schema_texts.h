@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace toile::io {
+namespace toile {
 
 struct SchemaText {
   std::string_view name;  // "garment", "options", ...
@@ -14,4 +14,4 @@ struct SchemaText {
 
 const std::vector<SchemaText>& schema_texts();  // sorted by name
 
-}  // namespace toile::io
+}  // namespace toile

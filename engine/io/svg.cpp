@@ -8,7 +8,7 @@
 #include "engine/io/drawing_layout.h"
 #include "engine/io/text_format.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 constexpr double kHeader = 120.0;  // mm above the pieces for title and test square
@@ -148,4 +148,4 @@ Bytes write_svg(const Drawing& drawing, const SvgOptions& options) {
   return SvgWriter(drawing, options).write();
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -8,7 +8,7 @@
 
 #include "engine/core/drawing.h"
 
-namespace toile::io {
+namespace toile {
 
 struct SvgOptions {
   bool test_square = true;
@@ -17,4 +17,4 @@ struct SvgOptions {
 
 Bytes write_svg(const Drawing& drawing, const SvgOptions& options = {});
 
-}  // namespace toile::io
+}  // namespace toile

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace toile::io {
+namespace toile {
 
 std::string number(double value, int decimals) {
   if (!std::isfinite(value) || std::abs(value) > 1e15) return "0";
@@ -40,4 +40,4 @@ void append(std::string& out, std::initializer_list<std::string_view> parts) {
   for (const std::string_view part : parts) out += part;
 }
 
-}  // namespace toile::io
+}  // namespace toile

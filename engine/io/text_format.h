@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace toile::io {
+namespace toile {
 
 // At most `decimals` digits after the point, no trailing zeros, no "-0"; "0" for what is not finite.
 std::string number(double value, int decimals);
@@ -16,4 +16,4 @@ std::string escape_xml(std::string_view text);
 
 void append(std::string& out, std::initializer_list<std::string_view> parts);
 
-}  // namespace toile::io
+}  // namespace toile

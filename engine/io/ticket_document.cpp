@@ -7,7 +7,7 @@
 #include "engine/core/units.h"
 #include "engine/io/text_format.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 constexpr double kSquareCmPerSquareMetre = 1e4;
@@ -211,4 +211,4 @@ Bytes write_ticket_html(const Ticket& ticket, const Bytes& pattern_svg, std::str
   return page.finish();
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -8,7 +8,7 @@
 #include "engine/core/units.h"
 #include "engine/io/garmentcode_json.h"
 
-namespace toile::io {
+namespace toile {
 
 using nlohmann::json;
 
@@ -278,4 +278,4 @@ json write_toile_block(const Pattern& pattern, double metre_per_unit) {
   return block;
 }
 
-}  // namespace toile::io
+}  // namespace toile

@@ -6,7 +6,7 @@
 #include "engine/core/pattern.h"
 #include "engine/io/json.h"
 
-namespace toile::io {
+namespace toile {
 
 // Applies the block to a pattern whose panels and seams are already read. `metre_per_unit` scales grainlines, keep-out
 // polygons and the symmetry plane's offset. Throws Error{FileMalformed} with the pointer of the offending value.
@@ -15,4 +15,4 @@ void read_toile_block(const JsonView& block, double metre_per_unit, Pattern& pat
 // The block of `pattern` in units of `metre_per_unit`; an empty object when everything is at its default.
 nlohmann::json write_toile_block(const Pattern& pattern, double metre_per_unit);
 
-}  // namespace toile::io
+}  // namespace toile

@@ -73,7 +73,7 @@ void check_panel(const Panel& panel, CrossingWork& work) {
   if (panel.edge_count() < 2 || panel.corners.size() != panel.edges.size())
     throw Error(ErrorCode::GarmentInvalid, panel_pointer(panel),
                 "panel \"" + panel.name + "\" needs at least two edges");
-  if (panel.edge_count() > io::kMaxEdgesPerPanel)
+  if (panel.edge_count() > kMaxEdgesPerPanel)
     throw Error(ErrorCode::LimitExceeded, panel_pointer(panel),
                 "panel \"" + panel.name + "\" has more than 2,000 edges; draw curves as curves");
   if (!all_finite(panel))
@@ -120,7 +120,7 @@ bool looks_like_json(std::span<const std::uint8_t> bytes) {
 void validate_pattern(const Pattern& pattern) {
   if (pattern.panels.empty())
     throw Error(ErrorCode::GarmentInvalid, "/pattern/panels", "the pattern has no panel; add at least one");
-  if (pattern.panels.size() > io::kMaxPanels)
+  if (pattern.panels.size() > kMaxPanels)
     throw Error(ErrorCode::LimitExceeded, "/pattern/panels", "a pattern may have at most 200 panels");
   CrossingWork work = crossing_work(pattern);
   for (const Panel& panel : pattern.panels) check_panel(panel, work);
@@ -129,7 +129,7 @@ void validate_pattern(const Pattern& pattern) {
 
 Pattern import_pattern(std::span<const std::uint8_t> bytes, Progress* progress) {
   report(progress, "import_pattern", 0.0);
-  Pattern pattern = io::read_garmentcode(bytes);
+  Pattern pattern = read_garmentcode(bytes);
   validate_pattern(pattern);
   report(progress, "import_pattern", 1.0);
   return pattern;
@@ -139,7 +139,7 @@ ImportedGarment import_garment(std::span<const std::uint8_t> bytes, const std::s
                                const ImportGarmentOptions& options, Progress* progress) {
   if (looks_like_json(bytes)) return {import_pattern(bytes, progress), {}, {}};
   report(progress, "import_pattern", 0.0);
-  io::ObjGarment garment = io::read_obj_garment(bytes, name, {options.metre_per_uv_unit, options.sidecar});
+  ObjGarment garment = read_obj_garment(bytes, name, {options.metre_per_uv_unit, options.sidecar});
   validate_pattern(garment.pattern);
   report(progress, "import_pattern", 1.0);
   return {std::move(garment.pattern), std::move(garment.mesh), std::move(garment.drape)};

@@ -33,8 +33,8 @@ GarmentInput read_garment_input(const JobFiles& files) {
 
 // The file first, then what the command line says.
 AlterOptions options_of(const JobFiles& files) {
-  AlterOptions options = files.options.empty() ? AlterOptions() : io::read_options(read_file(files.options));
-  for (const auto& [name, value] : files.given) io::set_option(options, name, value);
+  AlterOptions options = files.options.empty() ? AlterOptions() : read_options(read_file(files.options));
+  for (const auto& [name, value] : files.given) set_option(options, name, value);
   return options;
 }
 
@@ -67,7 +67,7 @@ void drape_one(const JobFiles& files, Context& context) {
   write_outputs(files.out, {timings_output(runner.timings())});
 }
 
-std::string help_of(const io::OptionInfo& info) {
+std::string help_of(const OptionInfo& info) {
   std::string help = "default " + info.default_json;
   for (std::size_t i = 0; i < info.choices.size(); ++i) help += (i == 0 ? "; " : ", ") + info.choices[i];
   return help;
@@ -84,7 +84,7 @@ void add_job_options(CLI::App& command, const std::shared_ptr<JobFiles>& files) 
   command.add_option("--seams", files->sidecar, "document beside an OBJ: seams of a flat one, labels, toile block");
   command.add_option("--options", files->options, "options of the job (JSON)");
   command.add_option("--out", files->out, "folder for the results; made if needed")->required();
-  for (const io::OptionInfo& info : io::list_options()) {
+  for (const OptionInfo& info : list_options()) {
     std::string flag = "--" + info.name;
     std::replace(flag.begin(), flag.end(), '_', '-');
     command.add_option_function<std::string>(

@@ -71,7 +71,7 @@ class Batch {
   Batch(const BatchFiles& files, Context& context)
       : files_(files),
         context_(context),
-        options_(files.options.empty() ? AlterOptions() : io::read_options(read_file(files.options))),
+        options_(files.options.empty() ? AlterOptions() : read_options(read_file(files.options))),
         garment_{fs::path(files.garment).filename().string(), read_file(files.garment)},
         reference_(read_body_input(files.reference_body, BodySource{})),
         stages_(fs::path(files.out) / ".stages") {}
@@ -98,7 +98,7 @@ class Batch {
     try {
       const BodyInput target = read_body_input(file, files_.source);
       const std::string key = key_of(std::string(TOILE_VERSION), input_key(garment_), input_key(reference_),
-                                     input_key(target), io::write_options(options_));
+                                     input_key(target), write_options(options_));
       if (!is_done(out, key)) work(target, out, key, index, count);
       row.fit = fit_by_zone(read_file((out / "result.json").string()));
     } catch (const Error& error) {

@@ -23,11 +23,11 @@ bool looks_like_json(const Bytes& bytes) {
 // What a schema cannot say: outlines, seams, ranges that hang together.
 void check_contents(const Bytes& bytes, const std::string& schema, Context& context) {
   if (schema == "garment" || schema == "altered_pattern") import_pattern(bytes, &context.progress);
-  if (schema == "options") io::read_options(bytes);
+  if (schema == "options") read_options(bytes);
 }
 
 std::string check_document(const Bytes& bytes, const std::string& schema_name, Context& context) {
-  const io::SchemaCheck check = io::check_schema(bytes, schema_name);
+  const SchemaCheck check = check_schema(bytes, schema_name);
   if (!check.problems.empty()) {
     for (std::size_t i = 1; i < check.problems.size(); ++i)
       std::fprintf(stderr, "%s: %s\n", check.problems[i].pointer.c_str(), check.problems[i].message.c_str());
@@ -79,7 +79,7 @@ void add_check_command(CLI::App& app, Context& context) {
   auto schema = std::make_shared<std::string>();
   command->add_option("FILE", *path, "JSON document, or OBJ, PLY, STL body; - is standard input")->required();
   command->add_option("--schema", *schema, "schema to use instead of the one the document names")
-      ->check(CLI::IsMember(io::schema_names()));
+      ->check(CLI::IsMember(schema_names()));
   command->callback([path, schema, &context] { run_check(*path, *schema, context); });
 }
 

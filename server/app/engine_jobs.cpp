@@ -67,7 +67,7 @@ JobReport hand_over(const JobContext& context, std::vector<OutputFile> files, co
 }  // namespace
 
 JobReport alter_job(const JobContext& context) {
-  const AlterOptions options = io::read_options(bytes_of(context.options));
+  const AlterOptions options = read_options(bytes_of(context.options));
   const GarmentInput garment = garment_input(context.inputs.at("garment"));
   const BodyInput reference = body_input(context.inputs.at("reference_body"));
   const BodyInput target = body_input(context.inputs.at("target_body"));
@@ -77,7 +77,7 @@ JobReport alter_job(const JobContext& context) {
 }
 
 JobReport drape_job(const JobContext& context) {
-  const AlterOptions options = io::read_options(bytes_of(context.options));
+  const AlterOptions options = read_options(bytes_of(context.options));
   const GarmentInput garment = garment_input(context.inputs.at("garment"));
   const BodyInput body = body_input(context.inputs.at("reference_body"));
   StageRunner runner(context.stages, context.progress, kDrapeStages);
@@ -115,7 +115,7 @@ JobReport inspect_garment_job(const JobContext& context) {
 std::string complete_options(const std::string& kind, const std::string& options) {
   if (kind != "alter" && kind != "drape") return options;
   try {
-    return json::parse(io::write_options(io::read_options(bytes_of(options)))).dump();
+    return json::parse(write_options(read_options(bytes_of(options)))).dump();
   } catch (const Error& error) {
     throw Error(error.code, "/options" + error.subject, error.message);
   }

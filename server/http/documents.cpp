@@ -179,15 +179,15 @@ json read_json(Request& request, std::int64_t max_bytes, std::string* raw) {
 
 void require_schema(const json& document, const std::string& schema) {
   const std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace);
-  const io::SchemaCheck check =
-      io::check_schema(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), schema);
+  const SchemaCheck check =
+      check_schema(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), schema);
   if (check.problems.empty()) return;
   Problem problem{422,
                   std::string(error_name(ErrorCode::BadUsage)),
                   "the request does not agree with /schemas/" + schema + ".schema.json",
                   {},
                   {}};
-  for (const io::SchemaProblem& found : check.problems) problem.errors.push_back({found.pointer, found.message});
+  for (const SchemaProblem& found : check.problems) problem.errors.push_back({found.pointer, found.message});
   throw problem;
 }
 

@@ -79,7 +79,7 @@ Response openapi(const Service& service) {
 Response schema(const Request& request) {
   constexpr std::string_view kEnding = ".schema.json";
   const std::string& file = request.path_value("file");
-  for (const io::SchemaText& text : io::schema_texts()) {
+  for (const SchemaText& text : schema_texts()) {
     if (file != std::string(text.name) + std::string(kEnding)) continue;
     Response response;
     response.content_type = "application/schema+json";

@@ -39,12 +39,12 @@ int bench_alteration(const Arguments& arguments) {
     std::ofstream(folder + "/" + name, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   };
-  write("altered_pattern.svg", io::write_svg(drawing));
-  write("altered_pattern.pdf", io::write_pdf(drawing));
+  write("altered_pattern.svg", write_svg(drawing));
+  write("altered_pattern.pdf", write_pdf(drawing));
   write("pattern.png", write_png(draw_picture(drawing)));
   write("tears.png", write_png(draw_picture(draw_tears(pattern, altered))));
-  write("ticket.html", io::write_ticket_html(altered.ticket, io::write_svg(drawing, {false, true})));
-  write("ticket.json", write_json(io::ticket_record(altered.ticket)));
+  write("ticket.html", write_ticket_html(altered.ticket, write_svg(drawing, {false, true})));
+  write("ticket.json", write_json(ticket_record(altered.ticket)));
   for (const TicketOperation& operation : altered.ticket.operations) std::printf("%s\n", operation.sentence.c_str());
   return 0;
 }

@@ -17,12 +17,12 @@ namespace toile::bench {
 namespace {
 
 Bytes file_of(const Drawing& drawing, const std::string& name, const std::string& sheet) {
-  if (name.ends_with(".svg")) return io::write_svg(drawing);
+  if (name.ends_with(".svg")) return write_svg(drawing);
   if (!name.ends_with(".pdf")) return write_png(draw_picture(drawing));
-  if (sheet == "Letter") return io::write_pdf(drawing, {io::PdfSheet::Letter, {}});
-  if (sheet == "A0") return io::write_pdf(drawing, {io::PdfSheet::A0, {}});
-  if (sheet == "projector") return io::write_pdf(drawing, {io::PdfSheet::Projector, {}});
-  return io::write_pdf(drawing);
+  if (sheet == "Letter") return write_pdf(drawing, {PdfSheet::Letter, {}});
+  if (sheet == "A0") return write_pdf(drawing, {PdfSheet::A0, {}});
+  if (sheet == "projector") return write_pdf(drawing, {PdfSheet::Projector, {}});
+  return write_pdf(drawing);
 }
 
 }  // namespace

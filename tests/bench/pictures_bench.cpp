@@ -78,12 +78,12 @@ int bench_pictures(const Arguments& arguments) {
       folder.make("fit.png", [&] { return render_views(&body.surface, &mesh, &draped.drape, &fit, views); });
   const Drawing drawing = draw_pattern(pattern);
   folder.make("pattern.png", [&] { return write_png(draw_picture(drawing)); });
-  folder.make("pattern.svg", [&] { return io::write_svg(drawing); });
-  folder.make("pattern.pdf", [&] { return io::write_pdf(drawing); });
+  folder.make("pattern.svg", [&] { return write_svg(drawing); });
+  folder.make("pattern.pdf", [&] { return write_pdf(drawing); });
   const Ticket ticket = test::sample_ticket();
-  const Bytes inlined = io::write_svg(drawing, {false, true});
-  folder.make("ticket.html", [&] { return io::write_ticket_html(ticket, inlined, "2026-01-31"); });
-  io::Report report;
+  const Bytes inlined = write_svg(drawing, {false, true});
+  folder.make("ticket.html", [&] { return write_ticket_html(ticket, inlined, "2026-01-31"); });
+  Report report;
   report.title = "Alteration of " + pattern.name, report.subtitle = "sample data of the test ticket";
   report.summary = {"Three operations; the largest stretch falls from 12 % to 3 %."};
   report.fits = {{fit_png, "Fit of the drape"}};
@@ -91,7 +91,7 @@ int bench_pictures(const Arguments& arguments) {
       {"Stretch by panel", {"panel", "weft", "warp"}, {{"front", "+1.2 %", "-0.3 %"}, {"back", "+0.8 %", "0.1 %"}}}};
   report.ticket = &ticket, report.pattern_svg = inlined;
   for (const auto& [name, value] : body.measurements) report.measurements.add(name + "_m", value);
-  folder.make("report.html", [&] { return io::write_report_html(report); });
+  folder.make("report.html", [&] { return write_report_html(report); });
   folder.print(arguments.csv);
   return 0;
 }

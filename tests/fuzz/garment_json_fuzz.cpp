@@ -9,9 +9,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     const toile::Pattern pattern = toile::import_pattern({data, size});
-    const std::string text = toile::io::write_garmentcode(pattern);
+    const std::string text = toile::write_garmentcode(pattern);
     const toile::Pattern again =
-        toile::io::read_garmentcode({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        toile::read_garmentcode({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     if (again.panels.size() != pattern.panels.size() || again.seams.size() != pattern.seams.size()) std::abort();
   } catch (const toile::Error& error) {
     if (error.subject.empty() || error.message.empty() || toile::exit_code(error.code) != 3) std::abort();

@@ -7,7 +7,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const toile::io::ObjGarment garment = toile::io::read_obj_garment({data, size}, "fuzz");
+    const toile::ObjGarment garment = toile::read_obj_garment({data, size}, "fuzz");
     if (garment.pattern.panels.empty()) std::abort();
     if (garment.mesh) {
       const toile::PatternMesh& mesh = *garment.mesh;

@@ -6,9 +6,9 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace toile;
   try {
-    const std::string written = io::write_options(io::read_options({data, size}));
+    const std::string written = write_options(read_options({data, size}));
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(written.data());
-    fuzz::require(io::write_options(io::read_options({bytes, written.size()})) == written);
+    fuzz::require(write_options(read_options({bytes, written.size()})) == written);
   } catch (const Error& error) {
     fuzz::require(!error.message.empty() && exit_code(error.code) != exit_code(ErrorCode::Internal));
   }

@@ -140,9 +140,9 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
 TEST(SewnPipeline, TheAlteredPatternIsReadBackWithoutLossAndAlteredAgain) {
   const AlterResult result = alter(tube_skirt(), "18-125");
   const std::string document = altered_document(result);
-  const io::SchemaCheck check = io::check_schema(bytes_of(document));
+  const SchemaCheck check = check_schema(bytes_of(document));
   EXPECT_EQ(check.schema, "altered_pattern");
-  for (const io::SchemaProblem& problem : check.problems) ADD_FAILURE() << problem.pointer << " " << problem.message;
+  for (const SchemaProblem& problem : check.problems) ADD_FAILURE() << problem.pointer << " " << problem.message;
   const Pattern again = import_pattern(bytes_of(document));
   const Pattern& sewn = result.altered.sewn.pattern;
   ASSERT_EQ(again.panels.size(), sewn.panels.size());
@@ -172,9 +172,9 @@ TEST(SewnPipeline, EveryDocumentOfAJobAgreesWithItsSchema) {
   std::vector<std::string> schemas;
   for (const OutputFile& file :
        alter_outputs(result, options, job_info(tube_skirt(), form("14-100"), form("11-125")))) {
-    const io::SchemaCheck check = io::check_schema(file.bytes);
+    const SchemaCheck check = check_schema(file.bytes);
     schemas.push_back(check.schema);
-    for (const io::SchemaProblem& problem : check.problems)
+    for (const SchemaProblem& problem : check.problems)
       ADD_FAILURE() << file.name << problem.pointer << " " << problem.message;
   }
   EXPECT_EQ(schemas, (std::vector<std::string>{"altered_pattern", "garment", "ticket", "result"}));

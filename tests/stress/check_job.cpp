@@ -28,7 +28,7 @@ constexpr double kStrained = 0.5, kSunkShare = 0.05;  // what a drape may not be
 constexpr double kSameArea = 0.02, kSameStretch = 0.01;
 
 GarmentInput garment_input(const Pattern& pattern) {
-  const std::string text = io::write_garmentcode(pattern);
+  const std::string text = write_garmentcode(pattern);
   return {"garment.json", Bytes(text.begin(), text.end())};
 }
 

@@ -9,7 +9,7 @@
 #include "engine/io/ticket_document.h"
 #include "tests/support/sample_ticket.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 std::string text_of(const Bytes& bytes) {
@@ -129,4 +129,4 @@ TEST(Report, SectionsWithoutContentAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace toile::io
+}  // namespace toile

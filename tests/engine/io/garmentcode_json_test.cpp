@@ -10,7 +10,7 @@
 #include "engine/geometry/curve.h"
 #include "tests/support/shared_data.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
@@ -222,4 +222,4 @@ TEST(GarmentCodeJson, RefusesDeepAndHugeDocuments) {
 }
 
 }  // namespace
-}  // namespace toile::io
+}  // namespace toile

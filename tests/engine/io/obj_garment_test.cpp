@@ -8,7 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/geometry/curve.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
@@ -150,4 +150,4 @@ TEST(ObjGarment, RefusesWhatIsNoGarment) {
 }
 
 }  // namespace
-}  // namespace toile::io
+}  // namespace toile

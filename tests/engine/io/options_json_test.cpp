@@ -6,7 +6,7 @@
 
 #include "engine/io/schema_texts.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 using nlohmann::json;
@@ -116,4 +116,4 @@ TEST(OptionsJson, SetsOneOptionFromText) {
 }
 
 }  // namespace
-}  // namespace toile::io
+}  // namespace toile

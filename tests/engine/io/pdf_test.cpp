@@ -15,7 +15,7 @@
 #include "engine/io/pdf_document.h"
 #include "engine/io/pdf_tiles.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 namespace fs = std::filesystem;
@@ -212,4 +212,4 @@ TEST(PdfRendered, TheTilesAssembleToTheOutline) {
 }
 
 }  // namespace
-}  // namespace toile::io
+}  // namespace toile

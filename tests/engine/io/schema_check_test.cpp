@@ -10,7 +10,7 @@
 #include "engine/io/schema_texts.h"
 #include "tests/support/shared_data.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
@@ -75,4 +75,4 @@ TEST(SchemaCheck, EverySharedGarmentAgreesReadAndWritten) {
 }
 
 }  // namespace
-}  // namespace toile::io
+}  // namespace toile

@@ -8,7 +8,7 @@
 #include "engine/io/drawing_layout.h"
 #include "engine/io/text_format.h"
 
-namespace toile::io {
+namespace toile {
 namespace {
 
 Drawing two_pieces() {
@@ -116,4 +116,4 @@ TEST(TextFormat, NumbersAreShortAndNeverMinusZero) {
 }
 
 }  // namespace
-}  // namespace toile::io
+}  // namespace toile

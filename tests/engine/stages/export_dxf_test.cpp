@@ -52,11 +52,11 @@ void write_expected(const Drawing& drawing, const fs::path& path) {
 }
 
 // 0: agrees; 1: not; 77: no ezdxf here.
-int read_back(const Drawing& drawing, const io::DxfOptions& options, const std::string& name) {
+int read_back(const Drawing& drawing, const DxfOptions& options, const std::string& name) {
   const fs::path folder = fs::temp_directory_path() / ("toile_dxf_" + std::to_string(getpid()));
   fs::create_directories(folder);
   const fs::path dxf = folder / (name + ".dxf"), expected = folder / (name + ".txt");
-  const Bytes bytes = io::write_dxf(drawing, options);
+  const Bytes bytes = write_dxf(drawing, options);
   std::ofstream(dxf, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   write_expected(drawing, expected);
@@ -85,14 +85,14 @@ TEST(ExportDxf, AnotherProgramReadsOutlinesNotchesAndSewLinesBack) {
     const int astm = read_back(drawing, {}, name);
     if (astm == 77) GTEST_SKIP() << "python3-ezdxf is not installed";
     EXPECT_EQ(astm, 0);
-    io::DxfOptions aama;
-    aama.dialect = io::DxfDialect::Aama;
+    DxfOptions aama;
+    aama.dialect = DxfDialect::Aama;
     EXPECT_EQ(read_back(drawing, aama, name), 0);
   }
 }
 
-std::string text_of(const Drawing& drawing, const io::DxfOptions& options) {
-  const Bytes bytes = io::write_dxf(drawing, options);
+std::string text_of(const Drawing& drawing, const DxfOptions& options) {
+  const Bytes bytes = write_dxf(drawing, options);
   return {bytes.begin(), bytes.end()};
 }
 
@@ -135,9 +135,9 @@ TEST(ExportDxf, AFoldOnTheCutLineIsTheMirrorLine) {
 }
 
 TEST(ExportDxf, OldImportersGetPlainLinesAndAamaNoValidationCopies) {
-  io::DxfOptions options;
+  DxfOptions options;
   options.lines_only = true;
-  options.dialect = io::DxfDialect::Aama;
+  options.dialect = DxfDialect::Aama;
   const std::string text = text_of(small_drawing(), options);
   EXPECT_EQ(text.find("POLYLINE"), std::string::npos);
   EXPECT_EQ(text.find("\r\n84\r\n"), std::string::npos);

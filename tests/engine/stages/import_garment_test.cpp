@@ -41,7 +41,7 @@ TEST(ImportGarment, ADrapedGarmentWrittenAsObjComesBackWithItsPanelsAndSeams) {
     const Pattern pattern =
         import_pattern(test::read_file(test::shared_data("garments/" + name + "_specification.json")));
     const PatternMesh mesh = mesh_panels(pattern, {3000, {}});
-    const Bytes obj = io::write_drape_obj(pattern, mesh, scattered_drape(pattern, mesh));
+    const Bytes obj = write_drape_obj(pattern, mesh, scattered_drape(pattern, mesh));
     ImportGarmentOptions options;
     options.metre_per_uv_unit = 0.01;
     const ImportedGarment garment = import_garment(obj, "garment.obj", options);

@@ -39,9 +39,9 @@ TEST(BodyCommand, PrintsOneDocumentAndWritesTheNormalisedBody) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   const Json document = Json::parse(result.out);
-  const io::SchemaCheck check = io::check_schema(Bytes(result.out.begin(), result.out.end()));
+  const SchemaCheck check = check_schema(Bytes(result.out.begin(), result.out.end()));
   EXPECT_EQ(check.schema, "body");
-  for (const io::SchemaProblem& problem : check.problems) ADD_FAILURE() << problem.pointer << ": " << problem.message;
+  for (const SchemaProblem& problem : check.problems) ADD_FAILURE() << problem.pointer << ": " << problem.message;
   EXPECT_EQ(document["normalisation"]["unit"], "mm");
   EXPECT_EQ(document["normalisation"]["up"], "+z");
   EXPECT_GE(document["repairs"]["closed_holes"], 7);
