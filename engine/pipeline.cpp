@@ -13,7 +13,7 @@ Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput&
   const MeshPanelsOptions mesh_options = mesh_options_of(options);
   const DrapeOptions drape_options = drape_options_of(options);
   const auto pattern = runner.run("import_pattern", 1, input_key(garment), [&] { return read_garment(garment); });
-  const auto wearer = runner.run("import_body", 3, input_key(body), [&] { return read_body(body); });
+  const auto wearer = runner.run("import_body", 4, input_key(body), [&] { return read_body(body); });
   const auto mesh = runner.run("mesh_panels", 2, key_of(pattern.key, mesh_options), [&] {
     if (auto given = read_garment_mesh(garment)) return std::move(*given);
     return mesh_panels(pattern.value, mesh_options, runner.progress());
@@ -45,7 +45,7 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   auto reference = drape_garment(garment, reference_body, options, runner);
   const auto& [pattern, mesh, wearer, worn, fit] = reference.value;
   const auto imported =
-      runner.run("import_target_body", 2, input_key(target_body), [&] { return read_target_body(target_body); });
+      runner.run("import_target_body", 3, input_key(target_body), [&] { return read_target_body(target_body); });
   Body target = imported.value.body;
   const auto found = runner.run("register_bodies", 5, key_of(input_key(reference_body), imported.key), [&] {
     const Landmarks given = given_landmarks(target_body, target.normalised_from_file);

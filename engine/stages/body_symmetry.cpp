@@ -8,6 +8,7 @@
 #include "engine/core/units.h"
 #include "engine/geometry/closest_point.h"
 #include "engine/geometry/components.h"
+#include "engine/geometry/surface_operators.h"
 
 namespace toile {
 namespace {
@@ -81,7 +82,8 @@ struct Match {
 
 class MirrorFit {
  public:
-  explicit MirrorFit(const TriangleMesh& body) : body_(body), tree_(body.vertices, body.triangles) {}
+  explicit MirrorFit(const TriangleMesh& body)
+      : body_(body), tree_(body.vertices, body.triangles), normals_(vertex_normals(body.vertices, body.triangles)) {}
 
   // Turn and shift of the mirrored samples onto the body: about and along the ground, or any.
   void run(std::vector<Sample>& samples, bool any) {
@@ -94,7 +96,7 @@ class MirrorFit {
           Eigen::AngleAxisd(angle, angle > 0 ? Vec3(move.head<3>() / angle) : Vec3::UnitY()).toRotationMatrix();
       turn_ = turn * turn_;
       shift_ = turn * shift_ + move.tail<3>();
-      if (move.cwiseAbs().maxCoeff() < kSettled) return;
+      if (std::max(angle, move.tail<3>().norm()) < kSettled) return;  // whichever way the body is turned
     }
   }
 
@@ -110,7 +112,7 @@ class MirrorFit {
       const Vec3 p = turn_ * s.point + shift_;
       const SurfacePoint c = tree_.closest_point(p, std::numeric_limits<double>::infinity(), s.triangle);
       s.triangle = c.triangle;
-      const Vec3 n = triangle_cross(body_, c.triangle).normalized();
+      const Vec3 n = normal_at(c);
       if (n.dot(turn_ * s.normal) > kNormalCosine) matches.push_back({p, n, n.dot(c.point - p), c.distance()});
     }
     if (matches.empty()) return matches;
@@ -120,6 +122,14 @@ class MirrorFit {
     std::nth_element(distances.begin(), middle, distances.end());
     median_ = *middle;
     return matches;
+  }
+
+  // Smooth at edges and corners: which of their triangles is found depends on how the body is turned.
+  Vec3 normal_at(const SurfacePoint& c) const {
+    if (c.feature == TriangleFeature::Face) return triangle_cross(body_, c.triangle).normalized();
+    Vec3 normal = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) normal += c.barycentric[k] * normals_.row(body_.triangles(c.triangle, k)).transpose();
+    return normal.normalized();
   }
 
   using Motion = Eigen::Matrix<double, 6, 1>;  // turn vector, shift
@@ -144,6 +154,7 @@ class MirrorFit {
 
   const TriangleMesh& body_;
   SurfaceTree tree_;
+  Points3 normals_;  // #V x 3
   Mat3 turn_ = Mat3::Identity();
   Vec3 shift_ = Vec3::Zero();
   double median_ = 0.0;

@@ -26,6 +26,9 @@ constexpr double kFormHeightMin = 0.1;                            // m: a form m
 // A frame that is within these of the found one was meant: it is kept.
 constexpr double kYawKept = 1.0 * kRadianPerDegree;
 constexpr double kFloorKept = 0.010, kMiddleKept = 0.010, kDepthKept = 0.150;  // m
+// A moved body stands on this lattice, m: turning it in its file leaves rounding of 1e-15 m, which the drape's folds
+// would amplify to millimetres. With the lattice the same body gives the same bytes however it stood.
+constexpr double kLattice = 1.0 / (1 << 20);
 
 [[noreturn]] void refuse(std::string message) {
   throw Error(ErrorCode::BodyNotRecognised, "body", std::move(message));
@@ -36,6 +39,10 @@ Mat4 affine(const Mat3& linear, const Vec3& shift = Vec3::Zero()) {
   m.topLeftCorner<3, 3>() = linear;
   m.topRightCorner<3, 1>() = shift;
   return m;
+}
+
+Points3 snapped(const Points3& points) {
+  return (points / kLattice).array().round() * kLattice;
 }
 
 Points3 moved(const Points3& points, const Mat4& m) {
@@ -149,7 +156,8 @@ class Normaliser {
       apply(affine(Mat3::Identity(), Vec3(0, -body_.vertices.col(1).minCoeff(), 0)));
     }
     result_.surface = in_file_;
-    if (!result_.kept_coordinates) result_.surface.vertices = moved(in_file_.vertices, result_.normalised_from_file);
+    if (!result_.kept_coordinates)
+      result_.surface.vertices = snapped(moved(in_file_.vertices, result_.normalised_from_file));
     return std::move(result_);
   }
 

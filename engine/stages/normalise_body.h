@@ -27,7 +27,7 @@ struct NormaliseBodyOptions {
 };
 
 struct NormaliseBodyResult {
-  TriangleMesh surface;                          // as given, moved; same order of vertices and triangles
+  TriangleMesh surface;  // as given, moved and, if moved, rounded to 1 um; same order of vertices and triangles
   Mat4 normalised_from_file = Mat4::Identity();  // similarity, 4x4
   LengthUnit unit = LengthUnit::Metre;
   UpAxis up = UpAxis::PlusY;

@@ -8,6 +8,7 @@
 #include "engine/geometry/decimate.h"
 #include "engine/stages/arrange_panels.h"
 #include "engine/stages/find_skeleton.h"
+#include "engine/stages/import_body.h"
 #include "tests/support/dressed.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/symmetric_body.h"
@@ -104,6 +105,24 @@ TEST(SlowDrapeScene, SymmetricBodyIsDressedSymmetrically) {
     }
     EXPECT_LT(most, 0.003);
   }
+}
+
+TEST(SlowDrapeScene, BodyTurnedMovedAndScaledInItsFileIsDressedTheSame) {
+  TOILE_REQUIRE_SHARED_DATA();
+  const test::Dressing dressed = test::dress("tshirt_fitted", kTriangles);
+  const auto drape_on_moved = [&](double yaw, const Vec3& shift, double scale) {
+    test::Dressing d = dressed;
+    TriangleMesh in_file = d.body.surface;
+    const Mat3 turn = Eigen::AngleAxisd(yaw, Vec3::UnitY()).toRotationMatrix();
+    in_file.vertices = scale * ((in_file.vertices * turn.transpose()).rowwise() + shift.transpose());
+    const ImportBodyResult imported = import_body(in_file, "body", {}, nullptr);
+    EXPECT_FALSE(imported.normalisation.kept_coordinates);
+    d.body = imported.body;
+    return drape_of(d).drape.nodes;
+  };
+  const Points3 one = drape_on_moved(0.5, Vec3(0.6, 0.13, 0.3), 1),
+                other = drape_on_moved(3.5, Vec3(-0.2, 1.1, 2.2), 100);
+  EXPECT_LT((one - other).rowwise().norm().maxCoeff(), 1e-4);
 }
 
 TEST(SlowDrapeScene, TwoThreadsGiveTheBytesOfOne) {
