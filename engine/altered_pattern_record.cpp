@@ -28,6 +28,7 @@ Record piece_record(const AlterPatternResult& altered, std::size_t i) {
   record.add("panel", altered.sewn.pattern.panels[i].name)
       .add("of_panel", panel.panel)
       .add("cloth", piece.insertion >= 0 ? "new"
+                    : piece.own_cloth    ? "cut_anew_out_of_own"
                     : piece.recut        ? "cut_anew"
                                          : "kept");
   if (piece.insertion >= 0)

@@ -172,8 +172,8 @@ void archive(A& a, MadeTear& v) {
 }
 template <class A>
 void archive(A& a, PanelTearing& v) {
-  auto& [before, after, tears, done, reason] = v;
-  a(before, after, tears, done, reason);
+  auto& [before, after, tears, done, overlaps, reason] = v;
+  a(before, after, tears, done, overlaps, reason);
 }
 template <class A>
 void archive(A& a, PanelAlteration& v) {
@@ -189,8 +189,8 @@ void archive(A& a, PieceMap& v) {
 }
 template <class A>
 void archive(A& a, SewnPiece& v) {
-  auto& [panel, insertion, recut, strain, turned_over, map] = v;
-  a(panel, insertion, recut, strain, turned_over, map);
+  auto& [panel, insertion, recut, own_cloth, strain, turned_over, map] = v;
+  a(panel, insertion, recut, own_cloth, strain, turned_over, map);
 }
 template <class A>
 void archive(A& a, SewnSeam& v) {

@@ -86,8 +86,9 @@ class AlterationDrawer {
     const bool altered = !panel.insertions.empty() || !panel.removals.empty();
     for (const std::size_t i : kept_[p]) {
       DrawingPiece piece = std::move(pieces_.pieces[i]);
-      if (alteration_.sewn.pieces[i].recut) piece.role = PieceRole::Insertion;
-      if (altered && kept_[p].size() == 1 && !alteration_.sewn.pieces[i].recut) show_original(panel, piece);
+      const SewnPiece& sewn = alteration_.sewn.pieces[i];
+      if (sewn.recut && !sewn.own_cloth) piece.role = PieceRole::Insertion;
+      if (kept_[p].size() == 1 && (sewn.own_cloth || (altered && !sewn.recut))) show_original(panel, piece);
       drawing_.pieces.push_back(std::move(piece));
     }
     if (kept_[p].size() > 1) drawing_.pieces.push_back(as_cut(p));

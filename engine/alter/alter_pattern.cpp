@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/alter/coarse_pattern.h"
+#include "engine/alter/cut_anew.h"
 #include "engine/alter/read_operations.h"
 #include "engine/alter/sew_altered.h"
 #include "engine/core/text.h"
@@ -141,21 +142,37 @@ void check_balance(AlterPatternResult& result, const PanelAlteration& panel, dou
   result.flags.push_back("panel " + panel.panel + ": pieces add up to " + share + " % more than its area");
 }
 
-// A panel that is cut anew has neither insertions nor removals. Which ones are.
-std::vector<bool> forget_tears(const RecutPanels& recut_panels, AlterPatternResult& result) {
-  std::vector<bool> anew(result.panels.size(), false);
-  for (const auto& [p, why] : recut_panels) {
-    PanelAlteration& panel = result.panels[static_cast<std::size_t>(p)];
+// A panel that is cut anew has neither insertions nor removals. `targets`: with their darts filled.
+void forget_tears(const Pattern& pattern, const std::vector<std::vector<Vec2>>& targets, RecutPanels& recut_panels,
+                  AlterPatternResult& result) {
+  for (auto& [p, anew] : recut_panels) {
+    const auto index = static_cast<std::size_t>(p);
+    PanelAlteration& panel = result.panels[index];
     panel.insertions.clear();
     panel.removals.clear();
+    panel.kept.clear();
+    panel.kept_in_target.clear();
+    panel.cut_lines.clear();
     panel.cut_back = 0.0;
-    anew[static_cast<std::size_t>(p)] = true;
+    anew.in_own_cloth =
+        place_in_own_cloth(pattern.panels[index], pattern.seam_allowance, panel.original, targets[index]);
   }
-  return anew;
+}
+
+void tell_cut_anew(const RecutPanels& anew, AlterPatternResult& result) {
+  for (const auto& [p, panel] : anew) {
+    const std::string& name = result.panels[static_cast<std::size_t>(p)].panel;
+    if (!panel.in_own_cloth)
+      result.flags.push_back("panel " + name + " is cut anew from new cloth: " + panel.why);
+    else if (panel.in_own_cloth->turned)
+      result.ticket.notes.push_back("Panel " + name +
+                                    " fits into its own cloth only upside down: not where the cloth has a nap or a "
+                                    "pattern with a direction.");
+  }
 }
 
 void sum_up(const RecutPanels& anew, double stretch_limit, AlterPatternResult& result) {
-  for (const auto& [p, why] : anew) {
+  for (const auto& [p, how] : anew) {
     result.inserted_area += signed_area(result.panels[static_cast<std::size_t>(p)].target);
     result.removed_area += signed_area(result.panels[static_cast<std::size_t>(p)].original);
   }
@@ -176,6 +193,34 @@ void sum_up(const RecutPanels& anew, double stretch_limit, AlterPatternResult& r
       result.target_area;
 }
 
+PanelAlteration alteration_of(const Panel& panel, const TornPattern& inserting, const TornPattern& removing,
+                              std::size_t p, const std::array<RecutPanel, 2>& recut,
+                              const std::array<Loops, 2>& wedges) {
+  const auto& [insertion, removal] = recut;
+  const auto& [original_wedges, target_wedges] = wedges;
+  PanelAlteration result;
+  result.panel = panel.name;
+  result.original = outline_without(removal.wanted, original_wedges);
+  result.target = outline_without(insertion.wanted, target_wedges);
+  result.kept = kept_cloth(inserting.sheets[p], removal, original_wedges);
+  result.cut_lines = cut_lines(inserting.sheets[p]);
+  for (const auto& kept : insertion.kept) result.kept_in_target.push_back(outline_without(kept, target_wedges));
+  result.insertions = regions_of(insertion, panel.name + "_insertion_", target_wedges);
+  result.removals = regions_of(removal, panel.name + "_removal_", original_wedges);
+  result.insertion_pass = inserting.panels[p];
+  result.removal_pass = removing.panels[p];
+  result.cut_back = insertion.cut_back;
+  return result;
+}
+
+void tell_cut_back(const AlterPatternOptions& options, AlterPatternResult& result) {
+  if (std::any_of(result.panels.begin(), result.panels.end(),
+                  [](const PanelAlteration& panel) { return panel.cut_back > 0.0; }))
+    result.ticket.notes.push_back(print_text(
+        "Strips are at least %.0f mm wide: where less is added, the cloth beside them is cut back by the difference.",
+        options.least_strip * kMmPerMetre));
+}
+
 }  // namespace
 
 AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
@@ -193,48 +238,33 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
   result.removal_rounds = removing.rounds;
   result.trials = inserting.trials + removing.trials;
   result.reverted = inserting.reverted + removing.reverted;
-  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
-    RecutOptions insert_options;
-    insert_options.l_shapes = options.l_shapes;
-    insert_options.least_strip = options.least_strip;
-    insert_options.side_room =
-        side_rooms(pattern, static_cast<int>(p), inserting.sheets[p].sides, options.least_allowance_left);
-    const RecutPanel insertion = recut(inserting.sheets[p], insert_options);
-    RecutOptions remove_options;
-    remove_options.l_shapes = options.l_shapes;
-    const RecutPanel removal = recut(removing.sheets[p], remove_options);
-    const Loops wedges = wedge_outlines(inserting.sheets[p].wedges, mesh.rest),
-                target_wedges = wedge_outlines(inserting.sheets[p].wedges, target_rest);
-    PanelAlteration panel;
-    panel.panel = pattern.panels[p].name;
-    panel.original = outline_without(removal.wanted, wedges);
-    panel.target = outline_without(insertion.wanted, target_wedges);
-    panel.kept = kept_cloth(inserting.sheets[p], removal, wedges);
-    panel.cut_lines = cut_lines(inserting.sheets[p]);
-    for (const auto& kept : insertion.kept) panel.kept_in_target.push_back(outline_without(kept, target_wedges));
-    panel.insertions = regions_of(insertion, panel.panel + "_insertion_", target_wedges);
-    panel.removals = regions_of(removal, panel.panel + "_removal_", wedges);
-    panel.insertion_pass = inserting.panels[p];
-    panel.removal_pass = removing.panels[p];
-    panel.cut_back = insertion.cut_back;
-    result.dropped_regions += insertion.dropped + removal.dropped;
-    result.panels.push_back(std::move(panel));
-  }
+  std::vector<std::vector<Vec2>> filled_targets;
   RecutPanels anew;
-  for (std::size_t known = 0;;) {  // what is cut anew changes what else there is to do
-    read_operations(pattern, mesh, inserting, removing, options, forget_tears(anew, result), result);
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+    const Sheet& sheet = inserting.sheets[p];
+    RecutOptions insert_options, remove_options;
+    insert_options.l_shapes = remove_options.l_shapes = options.l_shapes;
+    insert_options.least_strip = options.least_strip;
+    insert_options.side_room = side_rooms(pattern, static_cast<int>(p), sheet.sides, options.least_allowance_left);
+    const std::array<RecutPanel, 2> recuts = {recut(sheet, insert_options), recut(removing.sheets[p], remove_options)};
+    const std::array<Loops, 2> wedges = {wedge_outlines(sheet.wedges, mesh.rest),
+                                         wedge_outlines(sheet.wedges, target_rest)};
+    filled_targets.push_back(recuts[0].wanted);
+    result.dropped_regions += recuts[0].dropped + recuts[1].dropped;
+    result.panels.push_back(alteration_of(pattern.panels[p], inserting, removing, p, recuts, wedges));
+    const std::string why = hopeless(result.panels.back(), options.stretch_limit);
+    if (!why.empty() && !pattern.panels[p].locked) anew[static_cast<int>(p)].why = why;
+  }
+  for (std::size_t known = anew.size();; known = anew.size()) {  // what is cut anew changes what else there is to do
+    forget_tears(pattern, filled_targets, anew, result);
+    read_operations(pattern, mesh, inserting, removing, options, anew, result);
     result.sewn = sew_altered(pattern, mesh, target_rest, inserting, removing, result, anew);
     if (anew.size() == known) break;
-    known = anew.size();
   }
   sum_up(anew, options.stretch_limit, result);
+  tell_cut_anew(anew, result);
   tell_ticket(result.sewn, result.ticket);
-  const bool cut_back = std::any_of(result.panels.begin(), result.panels.end(),
-                                    [](const PanelAlteration& panel) { return panel.cut_back > 0.0; });
-  if (cut_back)
-    result.ticket.notes.push_back(print_text(
-        "Strips are at least %.0f mm wide: where less is added, the cloth beside them is cut back by the difference.",
-        options.least_strip * kMmPerMetre));
+  tell_cut_back(options, result);
   return result;
 }
 

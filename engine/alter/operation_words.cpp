@@ -74,6 +74,15 @@ std::string course_words(const TicketOperation& o) {
   return o.least_at == o.largest_at ? text : text + " " + o.least_at;
 }
 
+std::string cut_anew_words(const TicketOperation& o) {
+  std::string text = o.fabric == FabricNeed::NeedsFabric
+                         ? " from new cloth; what is there cannot be pieced"
+                         : " out of the cloth that is there; unpick all round and lay the new pattern on";
+  for (std::size_t i = 0; i < o.touches.size(); ++i)
+    text += (i > 0 ? " and " : "; take off and set again: ") + o.touches[i];
+  return text + ".";
+}
+
 }  // namespace
 
 std::vector<std::string> side_names(const Pattern& pattern, const Sheet& sheet, int side) {
@@ -167,7 +176,7 @@ std::string operation_sentence(const TicketOperation& o) {
   std::string text = o.where;
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   text += ": " + std::string(operation_words(o.kind));
-  if (o.kind == OperationKind::CutAnew) return text + " from new cloth; what is there cannot be pieced.";
+  if (o.kind == OperationKind::CutAnew) return text + cut_anew_words(o);
   text += amount_words(o) + course_words(o);
   if (o.fabric == FabricNeed::WithinAllowance)
     text += "; the seam allowance gives it, " + millimetres(o.allowance.left) + " of it are left";

@@ -244,16 +244,21 @@ void list_pieces(const Pattern& pattern, std::vector<Job>& jobs, const std::vect
   }
 }
 
-// Panels that cannot be pieced: one operation, done first.
-TicketOperation cut_anew(const Pattern& pattern, const std::vector<bool>& recut,
+// Panels that are not altered: one operation for those that have the cloth, one for those that need new cloth.
+TicketOperation cut_anew(const Pattern& pattern, const RecutPanels& recut, bool own_cloth,
                          const std::vector<PanelAlteration>& panels) {
   TicketOperation operation;
   operation.kind = OperationKind::CutAnew;
-  operation.fabric = FabricNeed::NeedsFabric;
+  operation.fabric = own_cloth ? FabricNeed::None : FabricNeed::NeedsFabric;
   std::vector<std::string> names;
-  for (std::size_t p = 0; p < recut.size(); ++p) {
-    if (!recut[p]) continue;
+  std::set<std::string> touches;
+  for (const auto& [number, anew] : recut) {
+    if (anew.in_own_cloth.has_value() != own_cloth) continue;
+    const auto p = static_cast<std::size_t>(number);
     const Panel& panel = pattern.panels[p];
+    for (const PanelEdge& edge : panel.edges)
+      if (edge.zip) touches.insert("zip");
+    for (const KeepOut& keep : panel.keep_outs) touches.insert(keep.why);
     std::vector<int> edges(panel.edges.size());
     std::iota(edges.begin(), edges.end(), 0);
     names.push_back(panel_words(panel));
@@ -264,6 +269,7 @@ TicketOperation cut_anew(const Pattern& pattern, const std::vector<bool>& recut,
     operation.pieces.back().quantity = panel.quantity;
   }
   operation.where = spoken_list(names);
+  operation.touches.assign(touches.begin(), touches.end());
   operation.sentence = operation_sentence(operation);
   return operation;
 }
@@ -277,15 +283,18 @@ int work_order(OperationKind kind) {  // new panels, darts, widths, hems
 }  // namespace
 
 void read_operations(const Pattern& pattern, const PatternMesh& mesh, const TornPattern& inserting,
-                     const TornPattern& removing, const AlterPatternOptions& options, const std::vector<bool>& recut,
+                     const TornPattern& removing, const AlterPatternOptions& options, const RecutPanels& recut,
                      AlterPatternResult& result) {
   const auto partners = find_seam_partners(mesh);
   std::vector<Job> jobs;
-  if (std::find(recut.begin(), recut.end(), true) != recut.end())
-    jobs.push_back({nullptr, {}, cut_anew(pattern, recut, result.panels)});
+  for (const bool own_cloth : {true, false})
+    if (TicketOperation operation = cut_anew(pattern, recut, own_cloth, result.panels); !operation.sides.empty())
+      jobs.push_back({nullptr, {}, std::move(operation)});
+  std::vector<bool> skip(result.panels.size(), false);
+  for (const auto& [p, anew] : recut) skip[static_cast<std::size_t>(p)] = true;
   for (const bool inserts : {true, false}) {
     const TornPattern& torn = inserts ? inserting : removing;
-    std::vector<TearReading> readings = read_tears(pattern, torn, inserts, options, recut);
+    std::vector<TearReading> readings = read_tears(pattern, torn, inserts, options, skip);
     drop_closed(result.panels, readings);
     const auto together = [&](const TearReading& a, const TearReading& b) {
       return belong_together(torn, partners, a, b);

@@ -5,13 +5,14 @@
 #pragma once
 
 #include "engine/alter/alter_pattern.h"
+#include "engine/alter/cut_anew.h"
 
 namespace toile {
 
 // Fills result.ticket.operations and the `operation` of every region. `recut`: panels that are cut anew, whatever their
 // tears are.
 void read_operations(const Pattern& pattern, const PatternMesh& mesh, const TornPattern& inserting,
-                     const TornPattern& removing, const AlterPatternOptions& options, const std::vector<bool>& recut,
+                     const TornPattern& removing, const AlterPatternOptions& options, const RecutPanels& recut,
                      AlterPatternResult& result);
 
 }  // namespace toile

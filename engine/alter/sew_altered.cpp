@@ -27,6 +27,10 @@ struct DrawnPiece {
   bool reversed = false;  // the panel's outline runs clockwise
 };
 
+void move_rest(const PolygonPlace& place, PieceMap& map) {
+  for (Eigen::Index v = 0; v < map.rest.rows(); ++v) map.rest.row(v) = place(map.rest.row(v).transpose()).transpose();
+}
+
 class Sewing {
  public:
   Sewing(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest, const TornPattern& inserting,
@@ -108,7 +112,8 @@ bool Sewing::add_panel(int p) {
   const PanelAlteration& panel = alteration_.panels[index];
   const bool altered = !panel.insertions.empty() || !panel.removals.empty();
   const AlteredParts whole = whole_panel(mesh_, target_rest_, panel.target, p);
-  std::string problem = recut_.contains(p) ? recut_.at(p) : "";
+  const bool known = recut_.contains(p);
+  std::string problem = known ? recut_.at(p).why : "";
   if (problem.empty()) {
     const AlteredParts parts =
         altered ? part_altered_panel(mesh_, target_rest_, inserting_.sheets[index], removing_.sheets[index], panel,
@@ -119,8 +124,7 @@ bool Sewing::add_panel(int p) {
   if (problem.empty()) return true;
   const std::string hopeless = try_panel(p, whole, true);
   if (hopeless.empty()) {
-    sewn_.flags.push_back("panel " + panel.panel + " is cut anew to the target: " + problem);
-    recut_.emplace(p, problem);
+    if (!known) recut_.emplace(p, CutAnew{problem, std::nullopt});
     return true;
   }
   sewn_.flags.push_back("panel " + panel.panel + " cannot be sewn: " + hopeless);
@@ -136,10 +140,11 @@ std::string Sewing::try_panel(int p, const AlteredParts& parts, bool recut) {
   std::vector<PieceBorder> borders;
   for (std::size_t i = 0; i < parts.parts.size(); ++i) {
     const AlteredPart& part = parts.parts[i];
-    const PieceCloth cloth = recut || part.insertion >= 0
-                                 ? identical_cloth(parts, i, inserting_.sheets[index].edge_length)
-                                 : source.of(parts, i);
+    PieceCloth cloth = recut || part.insertion >= 0 ? identical_cloth(parts, i, inserting_.sheets[index].edge_length)
+                                                    : source.of(parts, i);
     if (!cloth.problem.empty()) return cloth.problem;
+    const bool own_cloth = recut && recut_.contains(p) && recut_.at(p).in_own_cloth;
+    if (own_cloth) move_rest(*recut_.at(p).in_own_cloth, cloth.map);
     if (cloth.turned_over > kMostTurnedOver) return "its cloth turns over";
     PieceBorder border{p, static_cast<int>(i), {}, part.loop};
     std::vector<Vec2> outline;
@@ -151,7 +156,7 @@ std::string Sewing::try_panel(int p, const AlteredParts& parts, bool recut) {
                                  cloth.map.rest.row(cloth.border[k]), parts.corner[static_cast<std::size_t>(point)]});
     }
     borders.push_back(std::move(border));
-    pieces.push_back({p, part.insertion, recut, cloth.strain, cloth.turned_over, cloth.map});
+    pieces.push_back({p, part.insertion, recut, own_cloth, cloth.strain, cloth.turned_over, cloth.map});
   }
   std::move(pieces.begin(), pieces.end(), std::back_inserter(sewn_.pieces));
   std::move(borders.begin(), borders.end(), std::back_inserter(borders_));
@@ -274,7 +279,7 @@ void Sewing::carry_details(const Panel& from, std::size_t i, Panel& to) const {
       to.grainline = {{middle - half * along, middle + half * along}};
     }
   }
-  if (drawn_[i].insertion >= 0) return;
+  if (drawn_[i].insertion >= 0 || sewn_.pieces[i].recut) return;
   for (const KeepOut& keep : from.keep_outs) {
     Vec2 middle = Vec2::Zero();
     for (const Vec2& p : keep.polygon) middle += p / static_cast<double>(keep.polygon.size());

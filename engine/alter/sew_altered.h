@@ -5,18 +5,13 @@
 // A piece's edge that lies on an edge of the original panel is a part of that edge's own curve; others are lines,
 // Bézier curves or polylines through their points. Seam allowances, hems, locks and labels follow the edges, notches
 // and grainlines the cloth; new seams get a notch in their middle. A panel whose alteration cannot be sewn (pieces that
-// overlap, cloth that turns over) is cut anew to the target and flagged.   Lengths in metres.
+// overlap, cloth that turns over) is cut anew to the target.   Lengths in metres.
 #pragma once
 
-#include <map>
-
 #include "engine/alter/alter_pattern.h"
-#include "engine/alter/sewn_pattern.h"
+#include "engine/alter/cut_anew.h"
 
 namespace toile {
-
-// Panels to cut anew, and why.
-using RecutPanels = std::map<int, std::string>;
 
 // Requires result.panels and result.ticket of the same two passes. Panels that turn out not to be sewable as altered
 // are added to `recut`: then operations and pieces do not agree any more, and both are to be made again.

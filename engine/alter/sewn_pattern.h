@@ -14,10 +14,11 @@ struct PieceMap {
 };
 
 struct SewnPiece {
-  int panel = 0;        // of the original pattern
-  int insertion = -1;   // number in PanelAlteration::insertions; -1: kept cloth
-  bool recut = false;   // the whole panel cut anew to the target, because its alteration could not be sewn
-  double strain = 0.0;  // area-weighted p98 of the largest stretch of kept cloth against the original, dimensionless
+  int panel = 0;           // of the original pattern
+  int insertion = -1;      // number in PanelAlteration::insertions; -1: kept cloth
+  bool recut = false;      // the whole panel cut anew to the target ...
+  bool own_cloth = false;  // ... out of the original panel's cloth, where `rest` has it
+  double strain = 0.0;     // area-weighted p98 of the largest stretch of kept cloth against the original, dimensionless
   double turned_over = 0.0;  // share of its area that the map turns over; 0 for cloth that can be sewn
   PieceMap map;
 };

@@ -214,12 +214,12 @@ void carry_out(Sheet& sheet, const Sheet& planned, PanelTearing& panel, std::vec
 }
 
 void conclude(const Sheet& sheet, bool locked, double limit, PanelTearing& panel) {
-  const bool outside = !panel.tears.empty() && farthest_outside(sheet) > kMostOutside;
-  panel.done = share_of_limit(panel.after, limit) < kNearEnough && !outside;
-  panel.reason = panel.done ? ""
-                 : locked   ? "the panel is locked"
-                 : outside  ? "kept cloth overlaps the outline"
-                            : "no further tear would release enough of the stretch";
+  panel.overlaps = !panel.tears.empty() && farthest_outside(sheet) > kMostOutside;
+  panel.done = share_of_limit(panel.after, limit) < kNearEnough && !panel.overlaps;
+  panel.reason = panel.done       ? ""
+                 : locked         ? "the panel is locked"
+                 : panel.overlaps ? "kept cloth overlaps the outline"
+                                  : "no further tear would release enough of the stretch";
 }
 
 }  // namespace

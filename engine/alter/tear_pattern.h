@@ -37,8 +37,9 @@ struct MadeTear {
 struct PanelTearing {
   SheetStress before, after;
   std::vector<MadeTear> tears;
-  bool done = false;   // what is left is within the stretch limit
-  std::string reason;  // why not, or empty
+  bool done = false;      // what is left is within the stretch limit
+  bool overlaps = false;  // kept cloth lies outside the wanted outline
+  std::string reason;     // why not, or empty
 };
 
 struct TornPattern {

@@ -116,6 +116,19 @@ TEST(ShippedExamples, TheLeggingsAreDerivedForAnAdult) {
   expect_derived(kExamples[2], "woman-38-168", 2000);
 }
 
+TEST(SlowShippedExamples, TheTrousersAreCutAnewForAChildOutOfTheirOwnCloth) {
+  AlterOptions options;
+  options.triangles = 2000;
+  StageRunner runner(nullptr, nullptr, kAlterStages);
+  const AlterResult result =
+      alter_garment(garment(kExamples[4]), mannequin(kExamples[4].wearer), mannequin("child-128"), options, runner);
+  EXPECT_TRUE(result.altered.flags.empty());
+  for (const SewnPiece& piece : result.altered.sewn.pieces) EXPECT_TRUE(piece.own_cloth);
+  ASSERT_TRUE(result.after.has_value());
+  EXPECT_NE(result.after->drape.quality.rest, Rest::NotAtRest);
+  EXPECT_EQ(result.after->drape.quality.nodes_inside, 0);
+}
+
 TEST(SlowShippedExamples, AreDerivedForFiveMannequins) {
   constexpr int kTriangles = 2000, kOfTrousers = 4000;  // legs that touch each other need finer cloth to come to rest
   for (const Example& example : kExamples) {

@@ -71,6 +71,10 @@ TEST(OperationSentence, WholePanelsAreCutAnew) {
   operation.kind = OperationKind::CutAnew, operation.where = "front and back";
   operation.fabric = FabricNeed::NeedsFabric;
   EXPECT_EQ(operation_sentence(operation), "Front and back: cut anew from new cloth; what is there cannot be pieced.");
+  operation.fabric = FabricNeed::None, operation.touches = {"pocket", "zip"};
+  EXPECT_EQ(operation_sentence(operation),
+            "Front and back: cut anew out of the cloth that is there; unpick all round and lay the new pattern on; "
+            "take off and set again: pocket and zip.");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/geometry/curve.h"
+#include "engine/geometry/inner_point.h"
 #include "engine/stages/import_pattern.h"
 #include "tests/support/grid_garment.h"
 
@@ -95,6 +96,48 @@ TEST(SewAltered, LetsAWedgeIntoTheClothWithWhatIsTurnedIn) {
   const AlterPatternResult result = alter(sheet(), flare);
   expect_sound(result.sewn);
   EXPECT_NEAR(area_of(result.sewn, true) + area_of(result.sewn, false), 2400 + 360, 15);
+}
+
+GridGarment all_locked() {
+  GridGarment garment = sheet();
+  for (PanelEdge& edge : garment.pattern.panels[0].edges) edge.locked = true;
+  garment.pattern.panels[0].keep_outs = {{{Vec2(0.1, 0.1), Vec2(0.3, 0.1), Vec2(0.3, 0.5)}, "pocket"}};
+  return garment;
+}
+
+TEST(SewAltered, CutsAPanelThatNoTearBringsNearAnewOutOfItsOwnCloth) {
+  const GridGarment garment = all_locked();
+  AlterPatternOptions options;
+  options.max_tears_per_side = 0;
+  const AlterPatternResult result =
+      alter_pattern(garment.pattern, garment.mesh, garment.mapped(scaled(0.6, 0.7)), options);
+  expect_sound(result.sewn);
+  EXPECT_TRUE(result.flags.empty());
+  ASSERT_EQ(result.sewn.pieces.size(), 1u);
+  EXPECT_TRUE(result.sewn.pieces[0].recut && result.sewn.pieces[0].own_cloth);
+  const Panel& before = garment.pattern.panels[0];
+  for (const Vec2& corner : result.sewn.pattern.panels[0].corners)
+    EXPECT_TRUE(inside_polygon(before.corners, corner)) << corner.transpose();
+  EXPECT_NEAR(area_of(result.sewn, false), 2400 * 0.6 * 0.7, 1);
+  ASSERT_EQ(result.ticket.operations.size(), 1u);
+  const TicketOperation& operation = result.ticket.operations[0];
+  EXPECT_EQ(operation.kind, OperationKind::CutAnew);
+  EXPECT_EQ(operation.fabric, FabricNeed::None);
+  EXPECT_EQ(operation.touches, std::vector<std::string>{"pocket"});
+}
+
+TEST(SewAltered, AsksForNewClothWhereThePanelsOwnIsTooSmall) {
+  const GridGarment garment = all_locked();
+  AlterPatternOptions options;
+  options.max_tears_per_side = 0;
+  const AlterPatternResult result =
+      alter_pattern(garment.pattern, garment.mesh, garment.mapped(scaled(1.3, 0.7)), options);
+  expect_sound(result.sewn);
+  ASSERT_EQ(result.flags.size(), 1u);
+  EXPECT_NE(result.flags[0].find("new cloth"), std::string::npos);
+  EXPECT_FALSE(result.sewn.pieces.at(0).own_cloth);
+  EXPECT_EQ(result.ticket.operations.at(0).fabric, FabricNeed::NeedsFabric);
+  EXPECT_LT(result.area_imbalance, 1e-9);
 }
 
 TEST(SewAltered, SewsADartIntoThePanel) {
