@@ -2,13 +2,16 @@
 #include "engine/output_files.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "engine/core/content_hash.h"
+#include "engine/io/options_json.h"
 #include "engine/io/record_json.h"
 
 namespace toile {
 
 bool OutputFiles::named(const std::string& name) const {
+  assert(is_output_name(name));
   return std::find(wanted_.begin(), wanted_.end(), name) != wanted_.end();
 }
 

@@ -54,6 +54,8 @@ int exit_code(ErrorCode code) {
     case ErrorCode::AlterationFailed:
     case ErrorCode::TimedOut:
     case ErrorCode::ResourceLimit:
+    case ErrorCode::StorageFull:
+    case ErrorCode::StorageFailed:
     case ErrorCode::Crashed: return 4;
     case ErrorCode::Cancelled: return 5;
     default: return 70;

@@ -2,10 +2,12 @@
 #include "engine/io/options_json.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "engine/io/record_json.h"
+#include "engine/io/schema_texts.h"
 
 namespace toile {
 
@@ -14,6 +16,41 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kMostOutputs = 100;
+
+// Every file a job can hand over. A name that no job makes would be a job without the file that was asked for.
+const std::vector<std::string> kOutputs = {"all",
+                                           "altered_pattern.json",
+                                           "altered_pattern.svg",
+                                           "altered_pattern.dxf",
+                                           "altered_pattern.pdf",
+                                           "altered_pattern_letter.pdf",
+                                           "altered_pattern_a0.pdf",
+                                           "altered_pattern_projector.pdf",
+                                           "pattern.png",
+                                           "target_pattern.json",
+                                           "target_pattern.svg",
+                                           "ticket.json",
+                                           "ticket.html",
+                                           "reference_drape.obj",
+                                           "target_before.obj",
+                                           "target_after.obj",
+                                           "fit_reference.png",
+                                           "fit_before.png",
+                                           "fit_after.png",
+                                           "report.html",
+                                           "result.json",
+                                           "timings.json",
+                                           "tears.png",
+                                           "fit_target.png",
+                                           "transport.png",
+                                           "drape.obj",
+                                           "fit.png"};
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
 
 template <class Enum>
 struct Choice {
@@ -85,7 +122,10 @@ class Reader {
     const auto given = object_.find(name);
     if (!given) return;
     values.clear();
-    for (const JsonView& element : given->elements(kMostOutputs)) values.push_back(element.text(100));
+    for (const JsonView& element : given->elements(kMostOutputs)) {
+      values.push_back(element.text(100));
+      if (!is_output_name(values.back())) element.fail("no file of this name is made; there are " + listed(kOutputs));
+    }
   }
 
  private:
@@ -134,23 +174,38 @@ class Lister {
   void triangles(const char* name, const AlterOptions& values, int least, int most) {
     integer(name, garment_triangles(values), least, most);
   }
-  void text_list(const char* name, const std::vector<std::string>& values) { add(name, OptionType::TextList, values); }
+  void text_list(const char* name, const std::vector<std::string>& values) {
+    add(name, OptionType::TextList, values).choices = kOutputs;
+  }
 
  private:
   OptionInfo& add(const char* name, OptionType type, const json& value) {
-    options.push_back({name, type, 0.0, 0.0, {}, value.dump()});
+    options.push_back({name, type, 0.0, 0.0, {}, value.dump(), {}});
     return options.back();
   }
 };
+
+json options_schema() {
+  for (const SchemaText& schema : schema_texts())
+    if (schema.name == "options") return json::parse(schema.text);
+  throw Error(ErrorCode::Internal, "options", "its schema is not built in");
+}
+
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream text(list);
+  for (std::string word; std::getline(text, word, ',');) words.push_back(word);
+  return words;
+}
 
 void refuse_unknown(const JsonView& object) {
   const auto known = list_options();
   for (const auto& [name, value] : object.members()) {
     const auto same = [&, n = name](const OptionInfo& info) { return info.name == n; };
     if (name == "schema" || std::any_of(known.begin(), known.end(), same)) continue;
-    std::string names;
-    for (const OptionInfo& info : known) names += (names.empty() ? "" : ", ") + info.name;
-    value.fail("no such option; options are " + names);
+    std::vector<std::string> names;
+    for (const OptionInfo& info : known) names.push_back(info.name);
+    value.fail("no such option; options are " + listed(names));
   }
 }
 
@@ -175,6 +230,7 @@ AlterOptions read_options(std::span<const std::uint8_t> bytes) {
 
 void set_option(AlterOptions& options, const std::string& name, const std::string& value) {
   json one = json::parse(value, nullptr, false);
+  if (name == "outputs" && !one.is_array()) one = words_of(value);
   json object = json::parse(write_options(options));
   if (!options.triangles) object.erase("triangles");  // stays open: the preset's
   object[name] = one.is_discarded() ? json(value) : std::move(one);
@@ -196,7 +252,13 @@ std::vector<OptionInfo> list_options() {
   const AlterOptions defaults;
   Lister lister;
   visit_options(defaults, lister);
+  static const json properties = options_schema().at("properties");
+  for (OptionInfo& info : lister.options) info.meaning = properties.at(info.name).at("description");
   return std::move(lister.options);
+}
+
+bool is_output_name(const std::string& name) {
+  return std::find(kOutputs.begin(), kOutputs.end(), name) != kOutputs.end();
 }
 
 }  // namespace toile

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // toile alter and toile drape: one job, from files to a folder of files.
-#include <algorithm>
 #include <cstdio>
 #include <memory>
 
-#include "engine/core/content_hash.h"
-#include "engine/io/options_json.h"
 #include "engine/outputs.h"
 #include "server/app/body_source.h"
 #include "server/app/command.h"
 #include "server/app/files.h"
+#include "server/app/job_options.h"
 
 namespace toile::app {
 namespace {
 
 struct JobFiles {
-  std::string garment, reference_body, target_body, options, out;
+  std::string garment, reference_body, target_body, out;
   std::string uv_unit, sidecar;
   bool keep_drape = false;
   BodySource reference_source, target_source;
-  std::map<std::string, std::string> given;  // option name -> value, as on the command line
+  std::shared_ptr<JobOptions> options = std::make_shared<JobOptions>();
 };
 
 GarmentInput read_garment_input(const JobFiles& files) {
@@ -31,13 +29,6 @@ GarmentInput read_garment_input(const JobFiles& files) {
   return input;
 }
 
-// The file first, then what the command line says.
-AlterOptions options_of(const JobFiles& files) {
-  AlterOptions options = files.options.empty() ? AlterOptions() : read_options(read_file(files.options));
-  for (const auto& [name, value] : files.given) set_option(options, name, value);
-  return options;
-}
-
 void write_outputs(const std::string& folder, const std::vector<OutputFile>& files) {
   for (const OutputFile& file : files) {
     const std::filesystem::path path = std::filesystem::path(folder) / file.name;
@@ -47,7 +38,8 @@ void write_outputs(const std::string& folder, const std::vector<OutputFile>& fil
 }
 
 void alter(const JobFiles& files, Context& context) {
-  const AlterOptions options = options_of(files);
+  const AlterOptions options = read_job_options(*files.options);
+  prepare_folder(files.out);
   const GarmentInput garment = read_garment_input(files);
   const BodyInput reference = read_body_input(files.reference_body, files.reference_source);
   const BodyInput target = read_body_input(files.target_body, files.target_source);
@@ -58,7 +50,8 @@ void alter(const JobFiles& files, Context& context) {
 }
 
 void drape_one(const JobFiles& files, Context& context) {
-  const AlterOptions options = options_of(files);
+  const AlterOptions options = read_job_options(*files.options);
+  prepare_folder(files.out);
   const GarmentInput garment = read_garment_input(files);
   const BodyInput body = read_body_input(files.reference_body, files.reference_source);
   StageRunner runner(nullptr, &context.progress, kDrapeStages);
@@ -67,53 +60,59 @@ void drape_one(const JobFiles& files, Context& context) {
   write_outputs(files.out, {timings_output(runner.timings())});
 }
 
-std::string help_of(const OptionInfo& info) {
-  std::string help = "default " + info.default_json;
-  for (std::size_t i = 0; i < info.choices.size(); ++i) help += (i == 0 ? "; " : ", ") + info.choices[i];
-  return help;
-}
-
-// --stretch-limit for stretch_limit, and so on for every option of a job.
-void add_job_options(CLI::App& command, const std::shared_ptr<JobFiles>& files) {
+void add_garment_options(CLI::App& command, const std::shared_ptr<JobFiles>& files) {
   command
-      .add_option("--garment", files->garment, "GarmentCode specification (JSON), or OBJ with its pattern as texture")
+      .add_option("--garment", files->garment,
+                  "Garment: a GarmentCode pattern (JSON), or a 3D garment (OBJ) whose texture is its pattern")
+      ->type_name("FILE")
       ->required();
-  command.add_option("--uv-unit", files->uv_unit, "unit of an OBJ's texture coordinates; found when left out")
+  command.add_option("--uv-unit", files->uv_unit, "OBJ garment: unit of its pattern; found when left out")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
-  command.add_flag("--keep-drape", files->keep_drape, "take the positions of an OBJ garment as its drape, unmoved");
-  command.add_option("--seams", files->sidecar, "document beside an OBJ: seams of a flat one, labels, toile block");
-  command.add_option("--options", files->options, "options of the job (JSON)");
-  command.add_option("--out", files->out, "folder for the results; made if needed")->required();
-  for (const OptionInfo& info : list_options()) {
-    std::string flag = "--" + info.name;
-    std::replace(flag.begin(), flag.end(), '_', '-');
-    command.add_option_function<std::string>(
-        flag, [files, name = info.name](const std::string& value) { files->given[name] = value; }, help_of(info));
-  }
+  command.add_flag("--keep-drape", files->keep_drape, "OBJ garment: it hangs as it should, do not drape it anew");
+  command
+      .add_option("--seams", files->sidecar,
+                  "OBJ garment: file beside it with seams, names of panels, allowances (JSON)")
+      ->type_name("FILE");
+  command.add_option("--out", files->out, "Folder for the results; made if needed")->type_name("FOLDER")->required();
 }
 
 }  // namespace
 
 void add_alter_command(CLI::App& app, Context& context) {
-  CLI::App* command = app.add_subcommand("alter", "alter a garment from a reference body to a target body");
+  CLI::App* command = app.add_subcommand(
+      "alter", "Alter a garment that fits one body so that it fits another the same way: what to sew, and the pattern");
+  command->footer(
+      "Example: toile alter --garment skirt.json --reference-body builtin:woman-38-168 --target-body scan.obj --out "
+      "out/skirt\nThen open out/skirt/report.html.");
   auto files = std::make_shared<JobFiles>();
-  add_job_options(*command, files);
-  command->add_option("--reference-body", files->reference_body, "body it fits: OBJ, PLY, STL or builtin:NAME")
+  add_garment_options(*command, files);
+  command->add_option("--reference-body", files->reference_body, std::string("Body the garment fits now: ") + kBodyHelp)
+      ->type_name("BODY")
       ->required();
-  command->add_option("--target-body", files->target_body, "body it shall fit")->required();
+  command->add_option("--target-body", files->target_body, "Body it shall fit: the same, or a scan")
+      ->type_name("BODY")
+      ->required();
   add_body_options(*command, files->target_source);
-  command->add_option("--target-landmarks", files->target_source.landmarks, "the same as --landmarks");
-  command->add_option("--reference-landmarks", files->reference_source.landmarks,
-                      "JSON of known landmarks of the reference body, in its file's frame");
+  command->add_option("--target-landmarks", files->target_source.landmarks, "The same as --landmarks")
+      ->type_name("FILE");
+  command->add_option("--reference-landmarks", files->reference_source.landmarks, "The same for the reference body")
+      ->type_name("FILE");
+  add_job_options(*command, files->options, JobWork::Alter);
   command->callback([files, &context] { alter(*files, context); });
 }
 
 void add_drape_command(CLI::App& app, Context& context) {
-  CLI::App* command = app.add_subcommand("drape", "drape a garment on a body and show how it fits");
+  CLI::App* command = app.add_subcommand("drape", "Put a garment on a body and show how it fits");
+  command->footer(
+      "Example: toile drape --garment skirt.json --body builtin:woman-38-168 --out out/fit\nThen open "
+      "out/fit/fit.png.");
   auto files = std::make_shared<JobFiles>();
-  add_job_options(*command, files);
-  command->add_option("--body", files->reference_body, "OBJ, PLY, STL or builtin:NAME")->required();
+  add_garment_options(*command, files);
+  command->add_option("--body", files->reference_body, std::string("Body that wears it: ") + kBodyHelp)
+      ->type_name("BODY")
+      ->required();
   add_body_options(*command, files->reference_source);
+  add_job_options(*command, files->options, JobWork::Drape);
   command->callback([files, &context] { drape_one(*files, context); });
 }
 

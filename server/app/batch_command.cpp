@@ -14,6 +14,7 @@
 #include "server/app/files.h"
 #include "server/app/fit_summary.h"
 #include "server/app/folder_stages.h"
+#include "server/app/job_options.h"
 #include "server/http/batch_report.h"
 
 namespace toile::app {
@@ -23,7 +24,8 @@ namespace fs = std::filesystem;
 namespace {
 
 struct BatchFiles {
-  std::string garment, reference_body, target_bodies, options, out;
+  std::string garment, reference_body, target_bodies, out;
+  std::shared_ptr<JobOptions> options = std::make_shared<JobOptions>();
   BodySource source;
 };
 
@@ -71,13 +73,14 @@ class Batch {
   Batch(const BatchFiles& files, Context& context)
       : files_(files),
         context_(context),
-        options_(files.options.empty() ? AlterOptions() : read_options(read_file(files.options))),
+        options_(read_job_options(*files.options)),
         garment_{fs::path(files.garment).filename().string(), read_file(files.garment)},
         reference_(read_body_input(files.reference_body, BodySource{})),
         stages_(fs::path(files.out) / ".stages") {}
 
   int run() {
     const std::vector<std::string> bodies = bodies_of(files_.target_bodies);
+    prepare_folder(files_.out);
     std::map<std::string, int> used;
     std::vector<http::BatchRow> rows;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -149,20 +152,31 @@ class Batch {
 
 void add_batch_command(CLI::App& app, Context& context) {
   auto files = std::make_shared<BatchFiles>();
-  CLI::App* command = app.add_subcommand("batch", "alter one garment for many bodies; can be broken off and resumed");
-  command->add_option("--garment", files->garment, "GarmentCode specification (JSON)")->required();
-  command->add_option("--reference-body", files->reference_body, "body it fits: OBJ, PLY, STL or builtin:NAME")
+  CLI::App* command = app.add_subcommand(
+      "batch", "Alter one garment for many bodies; started again, it goes on where it was broken off");
+  command->footer(
+      "Example: toile batch --garment skirt.json --reference-body builtin:woman-38-168 --target-bodies scans/ --out "
+      "out/all\nThen open out/all/summary.html.");
+  command->add_option("--garment", files->garment, "Garment: a GarmentCode pattern (JSON)")
+      ->type_name("FILE")
       ->required();
-  command->add_option("--target-bodies", files->target_bodies, "folder of bodies, or a list of files and builtin:NAMEs")
+  command->add_option("--reference-body", files->reference_body, std::string("Body the garment fits now: ") + kBodyHelp)
+      ->type_name("BODY")
       ->required();
-  command->add_option("--options", files->options, "options of the jobs (JSON)");
-  command->add_option("--out", files->out, "folder for the results; made if needed")->required();
+  command
+      ->add_option("--target-bodies", files->target_bodies,
+                   "Bodies it shall fit: a folder of body files, or a text file with one body a line")
+      ->type_name("FOLDER|FILE")
+      ->required();
+  command->add_option("--out", files->out, "Folder for the results; made if needed")->type_name("FOLDER")->required();
   add_body_options(*command, files->source);
+  add_job_options(*command, files->options, JobWork::Alter);
   command->callback([files, &context] {
     const int failed = Batch(*files, context).run();
     if (failed > 0)
       throw Error(ErrorCode::AlterationFailed, "batch",
-                  std::to_string(failed) + " bodies failed; summary.csv tells why");
+                  std::to_string(failed) + (failed == 1 ? " body" : " bodies") + " could not be fitted; " +
+                      (fs::path(files->out) / "summary.csv").string() + " tells why");
   });
 }
 

@@ -73,12 +73,16 @@ void run(const BodyArguments& arguments, Context& context) {
 
 void add_body_command(CLI::App& app, Context& context) {
   auto arguments = std::make_shared<BodyArguments>();
-  CLI::App* command = app.add_subcommand("body", "import, repair and measure a body; one JSON document on stdout");
-  CLI::App* from = command->add_option_group("body")->require_option(1);
-  from->add_option("FILE", arguments->file, "OBJ, PLY or STL; a measurements JSON; builtin:NAME; - is standard input");
-  from->add_option("--measurements", arguments->measurements, "make a mannequin of these (JSON)");
+  CLI::App* command =
+      app.add_subcommand("body", "Read a body, repair and measure it; or make one from measurements. Prints JSON");
+  command->footer("Example: toile body scan.obj --out body.obj > body.json");
+  CLI::App* from = command->add_option_group("Body", "One of the two must be given");
+  from->require_option(1);
+  from->add_option("FILE", arguments->file, std::string(kBodyHelp) + "; - is standard input")->type_name("BODY");
+  from->add_option("--measurements", arguments->measurements, "Make a body of tape measures (JSON)")->type_name("FILE");
   add_body_options(*command, arguments->source);
-  command->add_option("--out", arguments->out, "write the normalised body there, as OBJ in metres");
+  command->add_option("--out", arguments->out, "Write the repaired body there: OBJ, metres, standing upright")
+      ->type_name("FILE");
   command->callback([arguments, &context] { run(*arguments, context); });
 }
 

@@ -24,16 +24,17 @@ ImportBodyOptions import_options(const BodySource& source) {
 }
 
 void add_body_options(CLI::App& app, BodySource& source) {
-  app.add_option("--unit", source.unit, "unit of the file")
+  app.add_option("--unit", source.unit, "Unit of the body's file")
       ->check(CLI::IsMember({"auto", "m", "cm", "mm", "in"}))
       ->capture_default_str();
-  app.add_option("--up", source.up, "axis that points to the head; a form: +y unless given")
+  app.add_option("--up", source.up, "Axis of the body's file that points to the head")
       ->check(CLI::IsMember({"auto", "+x", "-x", "+y", "-y", "+z", "-z"}))
       ->capture_default_str();
-  app.add_option("--kind", source.kind, "human, or form: any closed upright shape, taken as it stands")
+  app.add_option("--kind", source.kind, "human, or form: a dress form or any closed upright shape, taken as it stands")
       ->check(CLI::IsMember({"human", "form"}))
       ->capture_default_str();
-  app.add_option("--landmarks", source.landmarks, "JSON of known landmarks, in the file's frame");
+  app.add_option("--landmarks", source.landmarks, "Known points of the body, such as crotch or left_wrist (JSON)")
+      ->type_name("FILE");
 }
 
 BodyInput read_body_input(const std::string& file, const BodySource& source) {

@@ -10,6 +10,9 @@
 
 namespace toile::app {
 
+inline constexpr const char* kBodyHelp =
+    "a mesh (OBJ, PLY, STL), tape measures (JSON) or a shipped body, builtin:woman-38-168";
+
 // How one body is to be read; `add_body_options` binds it to --unit, --up and --kind.
 struct BodySource {
   std::string unit = "auto";   // auto, m, cm, mm, in

@@ -65,6 +65,8 @@ void run_check(const std::string& path, const std::string& schema, Context& cont
     const std::string what = document ? check_document(bytes, schema, context) : check_mesh(bytes, path, context);
     std::printf("%s: valid (%s)\n", path.c_str(), what.c_str());
   } catch (const Error& error) {
+    if (error.code == ErrorCode::FormatUnknown && error.subject == path)
+      throw Error(error.code, path, "neither a JSON document nor a mesh as OBJ, PLY or STL: " + error.message);
     if (error.subject == path) throw;
     const bool pointer = error.subject.starts_with('/');
     throw Error(error.code, path + (pointer ? "#" : ": ") + error.subject, error.message);
@@ -74,11 +76,14 @@ void run_check(const std::string& path, const std::string& schema, Context& cont
 }  // namespace
 
 void add_check_command(CLI::App& app, Context& context) {
-  auto* command = app.add_subcommand("check", "validate an input or output document against its schema");
+  auto* command = app.add_subcommand(
+      "check", "Tell whether a file of a garment, body, options or result is valid, and where it is not");
   auto path = std::make_shared<std::string>();
   auto schema = std::make_shared<std::string>();
-  command->add_option("FILE", *path, "JSON document, or OBJ, PLY, STL body; - is standard input")->required();
-  command->add_option("--schema", *schema, "schema to use instead of the one the document names")
+  command->add_option("FILE", *path, "JSON document, or a mesh as OBJ, PLY, STL; - is standard input")
+      ->type_name("")
+      ->required();
+  command->add_option("--schema", *schema, "Kind of document, where it does not tell by itself")
       ->check(CLI::IsMember(schema_names()));
   command->callback([path, schema, &context] { run_check(*path, *schema, context); });
 }

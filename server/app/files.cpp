@@ -36,6 +36,15 @@ Bytes read_all(std::FILE* file, const std::string& path) {
 
 }  // namespace
 
+void prepare_folder(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (!failed && ::access(folder.c_str(), W_OK | X_OK) == 0) return;
+  throw Error(
+      ErrorCode::BadUsage, "--out " + folder.string(),
+      "no file can be written there (" + (failed ? failed.message() : std::strerror(errno)) + "): name another folder");
+}
+
 Bytes read_file(const std::string& path) {
   if (path == "-") return read_all(stdin, "standard input");
   if (fs::is_directory(path))

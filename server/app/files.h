@@ -12,6 +12,9 @@ namespace toile::app {
 // Largest input file that is read at all; the importers have limits of their own below it.
 inline constexpr std::uintmax_t kMostInputBytes = 64u << 20;
 
+// The folder of --out, made if needed. Throws BadUsage when no file can be written there: before any work is done.
+void prepare_folder(const std::filesystem::path& folder);
+
 // "-" is standard input. Throws FileUnreadable (no such file, a folder, no permission) and LimitExceeded.
 Bytes read_file(const std::string& path);
 

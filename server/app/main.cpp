@@ -5,10 +5,10 @@
 #include <new>
 #include <string>
 
-#include <unistd.h>
-
 #include "engine/core/error.h"
 #include "server/app/command.h"
+#include "server/app/help.h"
+#include "server/app/show_progress.h"
 
 namespace {
 
@@ -17,34 +17,50 @@ void cancel_on_signal(int) {
   g_cancelled = true;
 }
 
-// A bar on a terminal, one line a stage otherwise.
-void show_progress(std::string_view stage, double fraction) {
-  static std::string last_stage;
-  static int last_percent = -1;
-  const int percent = static_cast<int>(fraction * 100);
-  const bool new_stage = stage != last_stage;
-  if (!new_stage && percent == last_percent) return;
-  if (isatty(STDERR_FILENO)) {
-    if (new_stage && !last_stage.empty()) std::fputc('\n', stderr);
-    const std::string filled(static_cast<std::size_t>(percent) * 30 / 100, '#');
-    std::fprintf(stderr, "\r%-20.*s [%-30s] %3d %%", static_cast<int>(stage.size()), stage.data(), filled.c_str(),
-                 percent);
-    if (percent >= 100) std::fputc('\n', stderr);
-  } else if (new_stage) {
-    std::fprintf(stderr, "%.*s\n", static_cast<int>(stage.size()), stage.data());
-  }
-  last_stage = percent >= 100 && isatty(STDERR_FILENO) ? std::string() : std::string(stage);
-  last_percent = percent;
-}
-
-void log_progress_json(std::string_view stage, double fraction) {
-  std::fprintf(stderr, "{\"event\":\"progress\",\"stage\":\"%.*s\",\"fraction\":%.3f}\n",
-               static_cast<int>(stage.size()), stage.data(), fraction);
-}
-
 int report_error(const toile::Error& error) {
   std::fprintf(stderr, "toile: %s: %s\n", std::string(toile::error_name(error.code)).c_str(), error.what());
   return toile::exit_code(error.code);
+}
+
+void add_commands(CLI::App& app, toile::app::Context& context) {
+  using namespace toile::app;
+  add_alter_command(app, context);
+  add_batch_command(app, context);
+  add_drape_command(app, context);
+  add_body_command(app, context);
+  add_register_command(app, context);
+  add_check_command(app, context);
+  add_serve_command(app, context);
+  add_work_command(app, context);
+  add_version_command(app, context);
+  add_run_job_command(app, context);
+}
+
+void add_global_options(CLI::App& app, toile::app::Context& context) {
+  app.set_version_flag("--version", "toile " TOILE_VERSION, "Print the version");
+  app.add_flag("--quiet", context.quiet, "Do not tell how far the work is");
+  app.add_flag("--json-log", context.json_log, "Tell it as JSON lines, for programs");
+  app.add_option("--threads", context.threads, "Processor cores to use; 0: all")
+      ->envname("TOILE_THREADS")
+      ->check(CLI::Range(0, 1024));
+  context.progress.cancelled = &g_cancelled;
+  context.progress.report = [&](std::string_view stage, double fraction) {
+    if (context.quiet) return;
+    context.json_log ? toile::app::log_progress_json(stage, fraction) : toile::app::show_progress(stage, fraction);
+  };
+}
+
+// The library would only say that a command is missing.
+bool names_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2) {
+    std::fputs(app.help().c_str(), stderr);
+    return false;
+  }
+  const std::string first = argv[1];
+  if (first.starts_with('-')) return true;
+  if (!app.get_subcommands([&](const CLI::App* command) { return command->check_name(first); }).empty()) return true;
+  std::fprintf(stderr, "toile: there is no command \"%s\"; see toile --help\n", first.c_str());
+  return false;
 }
 
 }  // namespace
@@ -57,31 +73,18 @@ int main(int argc, char** argv) {
   std::signal(SIGTERM, cancel_on_signal);
   std::signal(SIGPIPE, SIG_IGN);
 
-  CLI::App app("Toile alters existing garments: from a pattern and two bodies to a tailor's work order.");
+  CLI::App app("Toile alters existing garments: from a pattern and two bodies to a tailor's work order.", "toile");
+  app.formatter(std::make_shared<app::HelpText>());
+  app.footer(
+      "toile COMMAND --help tells what a command takes. Lengths are in the unit their name ends in.\n"
+      "Exit codes: 0 done, 2 wrong flags, 3 a file that cannot be used (the message tells where and how to mend it),\n"
+      "4 no result (the message tells why), 5 stopped by the user, 70 a defect of Toile.");
   app.require_subcommand(1);
   app.fallthrough();
   app::Context context;
-  app.add_flag("--quiet", context.quiet, "no progress on stderr");
-  app.add_flag("--json-log", context.json_log, "progress as JSON lines on stderr");
-  app.add_option("--threads", context.threads, "threads to use; 0: all cores")
-      ->envname("TOILE_THREADS")
-      ->check(CLI::Range(0, 1024));
-  context.progress.cancelled = &g_cancelled;
-  context.progress.report = [&](std::string_view stage, double fraction) {
-    if (context.quiet) return;
-    context.json_log ? log_progress_json(stage, fraction) : show_progress(stage, fraction);
-  };
-
-  app::add_alter_command(app, context);
-  app::add_batch_command(app, context);
-  app::add_body_command(app, context);
-  app::add_check_command(app, context);
-  app::add_drape_command(app, context);
-  app::add_register_command(app, context);
-  app::add_version_command(app, context);
-  app::add_serve_command(app, context);
-  app::add_work_command(app, context);
-  app::add_run_job_command(app, context);
+  add_global_options(app, context);
+  add_commands(app, context);
+  if (!names_command(app, argc, argv)) return 2;
 
   try {
     app.parse(argc, argv);

@@ -47,6 +47,7 @@ Record map_document(const Body& registered, const RegisterBodiesResult& result) 
 }
 
 void run(const RegisterArguments& arguments, Context& context) {
+  prepare_folder(arguments.out);
   BodySource reference_source;
   reference_source.landmarks = arguments.reference_landmarks;
   const Body reference = read_body(read_body_input(arguments.reference_body, reference_source));
@@ -69,17 +70,24 @@ void run(const RegisterArguments& arguments, Context& context) {
 
 void add_register_command(CLI::App& app, Context& context) {
   auto arguments = std::make_shared<RegisterArguments>();
-  CLI::App* command = app.add_subcommand("register", "put a reference body in correspondence with a target body");
-  command->add_option("--reference-body", arguments->reference_body, "OBJ, PLY or STL; builtin:NAME")->required();
-  command->add_option("--target-body", arguments->target_body, "body or scan: OBJ, PLY or STL; builtin:NAME")
+  CLI::App* command = app.add_subcommand("register", "Find which place of one body is which place of another");
+  command
+      ->add_option("--reference-body", arguments->reference_body,
+                   std::string("Body whose surface is carried over: ") + kBodyHelp)
+      ->type_name("BODY")
       ->required();
-  command->add_option("--out", arguments->out, "folder for mapped_reference.obj and map.json; made if needed")
+  command->add_option("--target-body", arguments->target_body, "Body or scan it is carried to")
+      ->type_name("BODY")
+      ->required();
+  command->add_option("--out", arguments->out, "Folder for mapped_reference.obj and map.json; made if needed")
+      ->type_name("FOLDER")
       ->required();
   add_body_options(*command, arguments->target);
-  command->add_option("--target-landmarks", arguments->target.landmarks, "the same as --landmarks");
-  command->add_option("--reference-landmarks", arguments->reference_landmarks,
-                      "JSON of known landmarks of the reference");
-  command->add_flag("--find-always", arguments->find_always, "find the map even where both bodies share one topology");
+  command->add_option("--target-landmarks", arguments->target.landmarks, "The same as --landmarks")->type_name("FILE");
+  command->add_option("--reference-landmarks", arguments->reference_landmarks, "The same for the reference body")
+      ->type_name("FILE");
+  command->add_flag("--find-always", arguments->find_always,
+                    "Compare the shapes even where both bodies have the same vertices in the same order");
   command->callback([arguments, &context] { run(*arguments, context); });
 }
 

@@ -136,7 +136,7 @@ void serve(const WorkSettings& work, const ServeSettings& settings, const std::a
 void add_serve_command(CLI::App& app, Context& context) {
   const auto work = std::make_shared<WorkSettings>();
   const auto settings = std::make_shared<ServeSettings>();
-  CLI::App* command = app.add_subcommand("serve", "HTTP server with workers inside; all its state is in --data");
+  CLI::App* command = app.add_subcommand("serve", "Answer over HTTP and work off jobs; all is kept in --data");
   add_work_settings(*command, *work);
   add_serve_settings(*command, *settings);
   command->callback([work, settings, &context] { serve(*work, *settings, *context.progress.cancelled); });

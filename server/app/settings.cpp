@@ -9,6 +9,12 @@ namespace toile::app {
 namespace {
 
 template <class T>
+const char* kind_of(const std::string& name) {
+  if (std::is_integral_v<T>) return "NUMBER";
+  return name == "--data" ? "FOLDER" : name == "--host" ? "ADDRESS" : "FILE";
+}
+
+template <class T>
 CLI::Option* setting(CLI::App& command, const std::string& name, T& value, const std::string& meaning) {
   std::string variable = "TOILE_" + name.substr(2);
   std::transform(variable.begin(), variable.end(), variable.begin(), [](char c) {
@@ -17,51 +23,63 @@ CLI::Option* setting(CLI::App& command, const std::string& name, T& value, const
   if constexpr (std::is_same_v<T, bool>)
     return command.add_flag(name, value, meaning)->envname(variable);
   else
-    return command.add_option(name, value, meaning)->envname(variable)->capture_default_str();
+    return command.add_option(name, value, meaning)
+        ->type_name(kind_of<T>(name))
+        ->envname(variable)
+        ->capture_default_str();
 }
 
 }  // namespace
 
 void add_work_settings(CLI::App& command, WorkSettings& settings) {
-  command.set_config("--config", "", "file with settings, one `name = value` a line")->envname("TOILE_CONFIG");
-  setting(command, "--data", settings.data, "folder of all state");
-  setting(command, "--workers", settings.workers, "jobs at a time; 0: as many as processor cores")
+  command.set_config("--config", "", "File with settings, one `name = value` a line")
+      ->type_name("FILE")
+      ->envname("TOILE_CONFIG");
+  setting(command, "--data", settings.data, "Folder that keeps everything: jobs, bodies, garments, results");
+  setting(command, "--workers", settings.workers, "Jobs worked on at a time; 0: one for each processor core")
       ->check(CLI::Range(0, 256));
-  setting(command, "--job-threads", settings.job_threads, "threads of one job")->check(CLI::Range(1, 256));
-  setting(command, "--job-memory-mb", settings.job_memory_mb, "address space of one job, MiB; 0: no limit")
+  setting(command, "--job-threads", settings.job_threads, "Processor cores that one job may use")
+      ->check(CLI::Range(1, 256));
+  setting(command, "--job-memory-mb", settings.job_memory_mb, "Most memory of one job, in MiB; 0: no limit")
       ->check(CLI::Range(0, 1 << 24));
-  setting(command, "--job-cpu-s", settings.job_cpu_s, "processor seconds of one job; 0: no limit")
+  setting(command, "--job-cpu-s", settings.job_cpu_s, "Most processor seconds of one job; 0: no limit")
       ->check(CLI::Range(0, 1 << 24));
-  setting(command, "--job-wall-s", settings.job_wall_s, "seconds one job may take")->check(CLI::Range(1, 1 << 24));
-  setting(command, "--lease-s", settings.lease_s, "seconds after which a silent worker has lost its job")
+  setting(command, "--job-wall-s", settings.job_wall_s, "Most seconds from start to end of one job")
+      ->check(CLI::Range(1, 1 << 24));
+  setting(command, "--lease-s", settings.lease_s,
+          "Seconds after which a worker that gives no sign of life loses its job to another")
       ->check(CLI::Range(2, 3600));
   setting(command, "--drain-s", settings.drain_s,
-          "seconds running jobs get on shutdown before they go back to the queue")
+          "Seconds that running jobs get to end when the server stops; later they begin anew")
       ->check(CLI::Range(0, 3600));
-  setting(command, "--retention-days", settings.retention_days, "days ended jobs are kept; 0: for ever")
+  setting(command, "--retention-days", settings.retention_days, "Days for which ended jobs are kept; 0: for ever")
       ->check(CLI::Range(0, 36500));
-  setting(command, "--stage-cache-mb", settings.stage_cache_mb, "finished stages kept for reuse, MiB")
+  setting(command, "--stage-cache-mb", settings.stage_cache_mb,
+          "Most disk space for finished steps kept for reuse, in MiB")
       ->check(CLI::Range(0, 1 << 24));
-  setting(command, "--max-queued", settings.max_queued, "waiting jobs beyond which 429 is answered")
+  setting(command, "--max-queued", settings.max_queued, "Most jobs that may wait; a further one is refused (429)")
       ->check(CLI::Range(1, 1 << 24));
 }
 
 void add_serve_settings(CLI::App& command, ServeSettings& settings) {
-  setting(command, "--host", settings.host, "address to listen on");
-  setting(command, "--port", settings.port, "port to listen on; 0: a free one")->check(CLI::Range(0, 65535));
-  setting(command, "--port-file", settings.port_file, "file that gets the port once the server listens");
+  setting(command, "--host", settings.host, "Address to listen on; 0.0.0.0: every one of this machine");
+  setting(command, "--port", settings.port, "Port to listen on; 0: a free one")->check(CLI::Range(0, 65535));
+  setting(command, "--port-file", settings.port_file, "File into which the port is written once the server listens");
   setting(command, "--api-keys", settings.api_keys_file,
-          "file of lines `TENANT SHA256-OF-KEY`; without it all may come in");
-  setting(command, "--http-threads", settings.http_threads, "requests answered at a time")->check(CLI::Range(4, 512));
-  setting(command, "--max-upload-mb", settings.max_upload_mb, "largest body or garment, MiB")
+          "File with one `TENANT SHA256-OF-KEY` a line; without it everybody may come in");
+  setting(command, "--http-threads", settings.http_threads, "Requests answered at a time")->check(CLI::Range(4, 512));
+  setting(command, "--max-upload-mb", settings.max_upload_mb, "Largest body or garment taken, in MiB")
       ->check(CLI::Range(1, 1024));
-  setting(command, "--min-free-mb", settings.min_free_mb, "free disk space below which nothing new is taken, MiB")
+  setting(command, "--min-free-mb", settings.min_free_mb,
+          "Free disk space below which nothing new is taken (507), in MiB")
       ->check(CLI::Range(0, 1 << 24));
-  setting(command, "--max-wait-s", settings.max_wait_s, "longest `Prefer: wait`")->check(CLI::Range(0, 600));
+  setting(command, "--max-wait-s", settings.max_wait_s, "Most seconds for which `Prefer: wait` waits")
+      ->check(CLI::Range(0, 600));
   setting(command, "--webhook-secret", settings.webhook_secret_file,
-          "file with the secret that signs webhooks; without it none are sent");
-  setting(command, "--webhook-private", settings.webhook_private, "let webhooks go to private and loopback addresses");
-  setting(command, "--demo", settings.demo, "store the demo garment and bodies at start");
+          "File with the secret that signs webhooks; without it none are sent");
+  setting(command, "--webhook-private", settings.webhook_private,
+          "Let webhooks go to addresses of this machine and its network");
+  setting(command, "--demo", settings.demo, "Store a garment and two bodies at start, and print lines to try");
 }
 
 QueueOptions queue_options(const WorkSettings& settings) {

@@ -6,7 +6,7 @@
 namespace toile::app {
 
 void add_version_command(CLI::App& app, Context&) {
-  app.add_subcommand("version", "print the version")->callback([] { std::puts("toile " TOILE_VERSION); });
+  app.add_subcommand("version", "Print the version")->callback([] { std::puts("toile " TOILE_VERSION); });
 }
 
 }  // namespace toile::app

@@ -24,7 +24,8 @@ void work(const WorkSettings& settings, const std::atomic<bool>& stop) {
 
 void add_work_command(CLI::App& app, Context& context) {
   const auto settings = std::make_shared<WorkSettings>();
-  CLI::App* command = app.add_subcommand("work", "work off the jobs of a data folder, beside a server");
+  CLI::App* command =
+      app.add_subcommand("work", "Work off jobs of a server from a process of its own, in the same --data");
   add_work_settings(*command, *settings);
   command->callback([settings, &context] { work(*settings, *context.progress.cancelled); });
 }

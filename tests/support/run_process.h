@@ -10,7 +10,7 @@ namespace toile::test {
 struct ProcessResult {
   int exit_code = -1;  // -1: ended by a signal
   std::string out, err;
-  double wall_s = 0.0;
+  double cpu_s = 0.0;    // of the processor, user and system
   double peak_mb = 0.0;  // resident
 };
 

@@ -30,7 +30,8 @@ TEST(OptionsJson, SchemaAndStructAgreeOnEveryOptionItsDefaultAndItsRange) {
     ASSERT_TRUE(properties.contains(option.name));
     const json& property = properties.at(option.name);
     EXPECT_EQ(property.at("default"), json::parse(option.default_json));
-    EXPECT_FALSE(property.at("description").get<std::string>().empty());
+    EXPECT_FALSE(option.meaning.empty());
+    EXPECT_EQ(property.at("description"), option.meaning);
     const std::string type = property.at("type");
     switch (option.type) {
       case OptionType::Integer:
@@ -41,7 +42,10 @@ TEST(OptionsJson, SchemaAndStructAgreeOnEveryOptionItsDefaultAndItsRange) {
         break;
       case OptionType::Boolean: EXPECT_EQ(type, "boolean"); break;
       case OptionType::Choice: EXPECT_EQ(property.at("enum").get<std::vector<std::string>>(), option.choices); break;
-      case OptionType::TextList: EXPECT_EQ(type, "array"); break;
+      case OptionType::TextList:
+        EXPECT_EQ(type, "array");
+        EXPECT_EQ(property.at("items").at("enum").get<std::vector<std::string>>(), option.choices);
+        break;
     }
   }
 }
@@ -54,7 +58,7 @@ TEST(OptionsJson, WhatIsWrittenIsReadBack) {
   options.solver = SolverKind::Newton;
   options.pin_extremities = true;
   options.triangles = 4321;
-  options.outputs = {"ticket", "svg"};
+  options.outputs = {"ticket.json", "fit.png"};
   const AlterOptions again = read_options(bytes_of(write_options(options)));
   EXPECT_EQ(again.max_tears_per_side, 3);
   EXPECT_EQ(again.stretch_limit, 0.05);
@@ -98,6 +102,7 @@ TEST(OptionsJson, RefusesUnknownNamesAndWrongTypes) {
   EXPECT_EQ(pointer_of(R"({"preset": "fast"})"), "option_invalid /preset");
   EXPECT_EQ(pointer_of(R"({"triangles": 1000.5})"), "option_invalid /triangles");
   EXPECT_EQ(pointer_of(R"({"outputs": [1]})"), "option_invalid /outputs/0");
+  EXPECT_EQ(pointer_of(R"({"outputs": ["ticket.json", "ticket.jpg"]})"), "option_invalid /outputs/1");
   EXPECT_EQ(pointer_of("[1]"), "option_invalid /");
   EXPECT_EQ(pointer_of("{"), "file_malformed options");
 }
@@ -111,6 +116,10 @@ TEST(OptionsJson, SetsOneOptionFromText) {
   EXPECT_EQ(options.seam_preference, 2.5);
   EXPECT_TRUE(options.l_shapes);
   EXPECT_FALSE(options.triangles.has_value());
+  set_option(options, "outputs", "ticket.json,pattern.png");
+  EXPECT_EQ(options.outputs, (std::vector<std::string>{"ticket.json", "pattern.png"}));
+  set_option(options, "outputs", R"(["fit.png"])");
+  EXPECT_EQ(options.outputs, std::vector<std::string>{"fit.png"});
   EXPECT_EQ(garment_triangles(options), 20000);
   EXPECT_THROW(set_option(options, "l_shapes", "maybe"), Error);
 }

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Help texts of the command line: one option a paragraph, wrapped, with its choices or range, default and variable
+// written out.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace toile::app {
+
+class HelpText : public CLI::Formatter {
+ public:
+  HelpText() { column_width(30); }
+  std::string make_option_opts(const CLI::Option* option) const override;
+  std::string make_option_desc(const CLI::Option* option) const override;
+};
+
+}  // namespace toile::app

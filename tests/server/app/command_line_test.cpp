@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The command line as a newcomer meets it: what it says of itself, and of what is wrong.
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/io/options_json.h"
+#include "tests/support/run_process.h"
+
+namespace toile {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string kToile = TOILE_BINARY_DIR "/bin/toile";
+const std::string kExamples = TOILE_SOURCE_DIR "/schemas/examples/";
+constexpr const char* kTriangles = "1000";
+
+test::ProcessResult toile_says(std::vector<std::string> words) {
+  words.insert(words.begin(), kToile);
+  return test::run_process(words);
+}
+
+// The tube skirt worn by the tube it was drafted for.
+test::ProcessResult drape(const std::string& out, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {
+      "drape", "--garment", kExamples + "tube_skirt.json", "--body", "builtin:tube-14-100", "--triangles", kTriangles,
+      "--out", out};
+  words.insert(words.end(), more.begin(), more.end());
+  return toile_says(words);
+}
+
+// As the help is printed: one sentence over several lines.
+std::string unwrapped(const std::string& text) {
+  std::string joined;
+  for (const char c : text)
+    if (c != ' ' && c != '\n') joined += c;
+  return joined;
+}
+
+TEST(CommandLine, HelpTellsEveryOptionOfAJobInTheWordsOfItsSchema) {
+  const test::ProcessResult result = toile_says({"alter", "--help"});
+  ASSERT_EQ(result.exit_code, 0);
+  for (const OptionInfo& option : list_options()) {
+    std::string sentence = option.meaning;
+    if (sentence.ends_with('.')) sentence.pop_back();
+    EXPECT_THAT(unwrapped(result.out), HasSubstr(unwrapped(sentence))) << option.name;
+  }
+  EXPECT_THAT(unwrapped(result.out), HasSubstr("0.005to0.3;default0.03"));
+  EXPECT_THAT(unwrapped(result.out), HasSubstr("oneofdraft,standard,fine;defaultstandard"));
+}
+
+TEST(CommandLine, HelpOfADrapeLeavesOutWhatOnlyAnAlterationAsks) {
+  const test::ProcessResult result = toile_says({"drape", "--help"});
+  EXPECT_THAT(result.out, HasSubstr("--triangles"));
+  EXPECT_THAT(result.out, Not(HasSubstr("--seam-preference")));
+}
+
+TEST(CommandLine, HelpTellsTheVariableAndTheRangeOfASetting) {
+  const test::ProcessResult result = toile_says({"serve", "--help"});
+  EXPECT_THAT(unwrapped(result.out), HasSubstr("0to65535;default8080;variableTOILE_PORT"));
+}
+
+TEST(CommandLine, WithoutACommandTellsWhichThereAre) {
+  const test::ProcessResult nothing = toile_says({}), wrong = toile_says({"alte"});
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_THAT(nothing.err, HasSubstr("  alter  "));
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("no command \"alte\""));
+  EXPECT_EQ(toile_says({"--version"}).out, toile_says({"version"}).out);
+}
+
+TEST(CommandLine, WrongOptionsAreToldByTheirFlagOrFile) {
+  const test::TemporaryFolder folder;
+  const std::string options = folder.write("options.json", R"({"preset": "fast"})");
+  const std::string out = folder.path() + "/out";
+  const auto flag = drape(out, {"--stretch-limit", "5"}), file = drape(out, {"--options", options});
+  const auto name = drape(out, {"--outputs", "fit.png,fit.jpg"});
+  for (const auto& result : {flag, file, name}) EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(flag.err, HasSubstr("--stretch-limit 5: must lie between"));
+  EXPECT_THAT(file.err, HasSubstr(options + "#/preset: expected one of draft"));
+  EXPECT_THAT(name.err, HasSubstr("--outputs fit.png,fit.jpg: no file of this name"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(CommandLine, AFolderThatCannotBeWrittenIsToldBeforeTheWork) {
+  const test::ProcessResult result = drape("/proc/nothing-can-be-made-here");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--out /proc/nothing-can-be-made-here"));
+  EXPECT_THAT(result.err, Not(HasSubstr("reading the garment")));
+}
+
+TEST(CommandLine, FilesAreMadeByNameWithCommasBetween) {
+  const test::TemporaryFolder folder;
+  const test::ProcessResult result = drape(folder.path(), {"--outputs", "drape.obj,fit.png"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() + "/drape.obj"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() + "/fit.png"));
+  const test::ProcessResult one = drape(folder.path() + "/one", {"--outputs", "drape.obj", "--json-log"});
+  EXPECT_FALSE(std::filesystem::exists(folder.path() + "/one/fit.png"));
+  EXPECT_THAT(one.err, HasSubstr(R"({"event":"progress","stage":"drape")"));
+}
+
+TEST(CommandLine, CheckTellsWhatAFileIsAndWhereItIsWrong) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(toile_says({"check", kExamples + "leggings.json"}).out, HasSubstr("valid (garment)"));
+  const std::string text = folder.write("notes.txt", "hem 3 cm\n");
+  const auto neither = toile_says({"check", text});
+  EXPECT_EQ(neither.exit_code, 3);
+  EXPECT_THAT(neither.err, HasSubstr("neither a JSON document nor a mesh"));
+  const std::string options = folder.write("options.json", R"({"schema": "toile/options/1", "triangles": 3})");
+  const auto wrong = toile_says({"check", options});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_THAT(wrong.err, HasSubstr(options + "#/triangles"));
+  const auto body = toile_says({"check", "--schema", "measurements", folder.write("m.json", R"({"figure": "woman"})")});
+  EXPECT_EQ(body.exit_code, 3);
+}
+
+TEST(CommandLine, AGarmentAndABodyAreToldApartAsMeshes) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(drape(folder.path(), {"--outputs", "drape.obj"}).exit_code, 0);
+  const std::string body = folder.path() + "/body.obj";
+  ASSERT_EQ(toile_says({"body", "builtin:woman-38-168", "--out", body}).exit_code, 0);
+  EXPECT_THAT(toile_says({"check", folder.path() + "/drape.obj"}).out, HasSubstr("garment, 2 panels, 2 seams"));
+  EXPECT_THAT(toile_says({"check", body}).out, HasSubstr("body, "));
+}
+
+TEST(CommandLine, RegisterWritesTheMapBetweenTwoBodies) {
+  const test::TemporaryFolder folder;
+  const auto result = toile_says({"--quiet", "register", "--reference-body", "builtin:woman-38-168", "--target-body",
+                                  "builtin:woman-44-172", "--out", folder.path()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_TRUE(std::filesystem::exists(folder.path() + "/mapped_reference.obj"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() + "/map.json"));
+}
+
+}  // namespace
+}  // namespace toile
