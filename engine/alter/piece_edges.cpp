@@ -6,7 +6,7 @@
 
 #include "engine/geometry/fit_curve.h"
 #include "engine/geometry/part_of_curve.h"
-#include "engine/geometry/polygon_boolean.h"
+#include "engine/geometry/self_crossing.h"
 
 namespace toile {
 namespace {
@@ -19,6 +19,7 @@ constexpr double kSameLength = 3e-4;  // m: of such a Bézier and the chain
 constexpr double kPolyline = 5e-5;    // m: of the polyline where no Bézier follows
 constexpr double kFlat = 2e-5;        // m: of the chords an outline is tested by
 constexpr double kLeastChord = 2e-5;  // m between the ends of an edge: less is no edge
+constexpr double kTouching = 2e-7;    // m: an outline this near to itself could not be read back
 constexpr double kOtherLength =
     2e-3;  // m an edge may differ from its chain, and a tenth: corners are snapped to places
 
@@ -114,7 +115,7 @@ EdgeCurve curve_through(const std::vector<Vec2>& points) {
   return polyline_through(points);
 }
 
-// Whether the edges make an outline that does not cross itself, each about as long as its chain.
+// Whether the edges make an outline that keeps clear of itself, each about as long as its chain.
 bool can_be_cut(const PieceEdges& edges) {
   std::vector<Vec2> outline;
   for (std::size_t k = 0; k < edges.corners.size(); ++k) {
@@ -124,7 +125,7 @@ bool can_be_cut(const PieceEdges& edges) {
     const std::vector<Vec2> points = flatten_curve(curve, kFlat);
     outline.insert(outline.end(), points.begin(), points.end() - 1);
   }
-  return is_simple_polygon(outline);
+  return !find_self_crossing(outline, kTouching);
 }
 
 class EdgeDrawer {
@@ -159,6 +160,7 @@ class EdgeDrawer {
       plain.corners.push_back(points.front());
       plain.curves.push_back(polyline_through(points));
     }
+    plain.sound = can_be_cut(plain);
     return plain;
   }
 

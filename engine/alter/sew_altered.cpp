@@ -49,6 +49,7 @@ class Sewing {
     corners_ = share_corners(pattern_, mesh_, borders_);
     chains_ = border_chains(borders_);
     draw_pieces();
+    if (!all_sound()) return std::move(sewn_);
     start_pattern();
     for (std::size_t i = 0; i < drawn_.size(); ++i) add_piece(i);
     sew_lines();
@@ -63,6 +64,7 @@ class Sewing {
   bool add_panel(int p);
   std::string try_panel(int p, const AlteredParts& parts, bool recut);
   void draw_pieces();
+  bool all_sound();
   void start_pattern();
   void add_piece(std::size_t i);
   std::string name_of(std::size_t i) const;
@@ -184,6 +186,22 @@ void Sewing::draw_pieces() {
     drawn.edges = draw_piece_edges(drawn.border, drawn.chains, piece.insertion < 0 && !piece.recut ? &panel : nullptr);
     drawn_.push_back(std::move(drawn));
   }
+}
+
+// Narrow pieces can touch themselves once they are drawn: their panel is cut anew, and where that is no cure either,
+// nothing is sewn.
+bool Sewing::all_sound() {
+  bool sound = true;
+  for (const DrawnPiece& drawn : drawn_) {
+    if (drawn.edges.sound) continue;
+    sound = false;
+    const int p = drawn.border.panel;
+    const std::string problem = "the outline of a piece touches itself";
+    if (recut_.emplace(p, CutAnew{problem, std::nullopt}).second) continue;
+    sewn_.flags.push_back("panel " + pattern_.panels[static_cast<std::size_t>(p)].name + " cannot be sewn: " + problem);
+  }
+  if (!sound) sewn_.pieces.clear();
+  return sound;
 }
 
 void Sewing::start_pattern() {
