@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/stages/build_fitting_map.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/words.h"
 #include "tests/support/dressed.h"
 #include "tests/support/shared_data.h"
 
@@ -22,21 +23,13 @@ struct Request {
   bool frictionless = false;
 };
 
-Request parse(const std::vector<std::string>& words) {
+Request parse(Words words) {
   Request request;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool more = i + 1 < words.size();
-    if (words[i] == "--triangles" && more)
-      request.triangles = std::atoi(words[++i].c_str());
-    else if (words[i] == "--residual" && more)
-      request.residual = std::atof(words[++i].c_str());
-    else if (words[i] == "--stop-settled" && more)
-      request.stop_settled = std::atof(words[++i].c_str());
-    else if (words[i] == "--frictionless")
-      request.frictionless = true;
-    else
-      request.garments.push_back(words[i]);
-  }
+  request.triangles = static_cast<int>(words.number("--triangles").value_or(request.triangles));
+  request.residual = words.number("--residual").value_or(request.residual);
+  request.stop_settled = words.number("--stop-settled");
+  request.frictionless = words.flag("--frictionless");
+  request.garments = words.rest();
   if (request.garments.empty())
     request.garments = {"dress_sleeveless", "tshirt_fitted", "leggings_tight", "skirt_pencil", "pants_straight"};
   return request;
@@ -77,7 +70,7 @@ int bench_oracle(const Arguments& arguments) {
     std::fprintf(stderr, "toile-bench oracle needs ../shared/data\n");
     return 2;
   }
-  const Request request = parse(arguments.words);
+  const Request request = parse(Words(arguments.words));
   Table table({"garment", "triangles", "default CPU s", "Newton CPU s", "default residual", "Newton residual",
                "default it", "Newton it", "rms mm", "most mm", "hem mm", "stretch rms %", "energy J above"});
   for (const std::string& name : request.garments) run_one(request, name, table);

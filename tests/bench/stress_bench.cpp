@@ -16,6 +16,7 @@
 
 #include "engine/core/archive.h"
 #include "tests/bench/proof.h"
+#include "tests/bench/words.h"
 #include "tests/stress/stress_scene.h"
 
 namespace toile::stress {
@@ -43,21 +44,13 @@ struct Request {
   bool all = false;
 };
 
-Request parse(const std::vector<std::string>& words) {
+Request parse(Words words) {
   Request request;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool more = i + 1 < words.size();
-    if (words[i] == "--scenes" && more)
-      request.scenes = std::atoi(words[++i].c_str());
-    else if (words[i] == "--seed" && more)
-      request.seed = std::strtoull(words[++i].c_str(), nullptr, 10);
-    else if (words[i] == "--kind" && more)
-      request.kind = words[++i];
-    else if (words[i] == "--limit" && more)
-      request.limit = std::max(1, std::atoi(words[++i].c_str()));
-    else if (words[i] == "--all")
-      request.all = true;
-  }
+  request.scenes = static_cast<int>(words.number("--scenes").value_or(request.scenes));
+  request.limit = std::max(1, static_cast<int>(words.number("--limit").value_or(request.limit)));
+  if (const auto seed = words.text("--seed")) request.seed = std::strtoull(seed->c_str(), nullptr, 10);
+  request.kind = words.text("--kind").value_or("");
+  request.all = words.flag("--all");
   return request;
 }
 
@@ -146,7 +139,7 @@ void add_row(Table& table, const std::string& kind, Count c) {
 }  // namespace
 
 int bench_stress(const Arguments& arguments) {
-  const Request request = parse(arguments.words);
+  const Request request = parse(Words(arguments.words));
   std::map<std::string, Count> kinds;
   Count all;
   std::map<std::string, int> refusals;

@@ -10,6 +10,7 @@
 #include "engine/stages/render_views.h"
 #include "engine/stages/transport_garment.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/words.h"
 #include "tests/support/dressed.h"
 #include "tests/support/shared_data.h"
 
@@ -22,19 +23,12 @@ struct Request {
   int triangles = 2500;
 };
 
-Request parse(const std::vector<std::string>& words) {
+Request parse(Words words) {
   Request request;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool more = i + 1 < words.size();
-    if (words[i] == "--triangles" && more)
-      request.triangles = std::atoi(words[++i].c_str());
-    else if (words[i] == "--body" && more)
-      request.bodies.push_back(words[++i]);
-    else if (words[i] == "--pictures" && more)
-      request.folder = words[++i];
-    else
-      request.garments.push_back(words[i]);
-  }
+  request.triangles = static_cast<int>(words.number("--triangles").value_or(request.triangles));
+  request.folder = words.text("--pictures").value_or("");
+  while (const auto body = words.text("--body")) request.bodies.push_back(*body);
+  request.garments = words.rest();
   if (request.garments.empty())
     request.garments = {"leggings_tight", "tshirt_fitted", "dress_sleeveless", "pants_straight", "skirt_circle"};
   if (request.bodies.empty()) request.bodies = test::shared_body_names();
@@ -101,7 +95,7 @@ class Wardrobe {
 
 int bench_transport(const Arguments& arguments) {
   if (!test::has_shared_data()) return std::fprintf(stderr, "../shared/data is not beside this checkout\n"), 3;
-  const Request request = parse(arguments.words);
+  const Request request = parse(Words(arguments.words));
   Table table({"garment", "body", "map", "transport s", "drape s", "carried mm", "crossings", "rest", "residual",
                "node mm", "edge mm", "crossing %", "hold m", "findings"});
   std::map<std::string, Body> bodies;

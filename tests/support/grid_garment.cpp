@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/grid_garment.h"
 
-#include <algorithm>
-#include <numeric>
 #include <random>
+
+#include "tests/support/rectangles.h"
 
 namespace toile::test {
 namespace {
@@ -32,34 +32,6 @@ std::vector<std::vector<int>> edge_loops(const GridPanel& panel, int first) {
   for (int i = n; i >= 0; --i) edges[2].push_back(at(i, m));
   for (int j = m; j >= 0; --j) edges[3].push_back(at(0, j));
   return edges;
-}
-
-Panel drawn_panel(const GridPanel& spec) {
-  Panel panel;
-  panel.name = spec.name;
-  panel.corners = {{0, 0}, {spec.width, 0}, {spec.width, spec.height}, {0, spec.height}};
-  panel.edges.resize(4);
-  return panel;
-}
-
-void sew_nodes(PatternMesh& mesh) {
-  std::vector<int> parent(static_cast<std::size_t>(mesh.vertex_count()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[static_cast<std::size_t>(v)] != v) v = parent[static_cast<std::size_t>(v)];
-    return v;
-  };
-  for (const auto& seam : mesh.seam_vertices)
-    for (const auto& [a, b] : seam) {
-      const int x = root(a), y = root(b);
-      parent[static_cast<std::size_t>(std::max(x, y))] = std::min(x, y);
-    }
-  std::vector<int> number(parent.size(), -1);
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    int& n = number[static_cast<std::size_t>(root(v))];
-    if (n < 0) n = mesh.node_count++;
-    mesh.node_of_vertex.push_back(n);
-  }
 }
 
 }  // namespace
@@ -92,7 +64,7 @@ GridGarment grid_garment(const std::vector<GridPanel>& panels, const std::vector
     mesh.panel_reversed.push_back(false);
     mesh.edge_vertices.push_back(edge_loops(panel, range.vertex_begin));
     mesh.target_edge_length = std::max(mesh.target_edge_length, cell.maxCoeff());
-    garment.pattern.panels.push_back(drawn_panel(panel));
+    garment.pattern.panels.push_back(rectangle(panel.name, panel.width, panel.height));
   }
   mesh.rest.resize(static_cast<int>(positions.size()), 2);
   for (int v = 0; v < mesh.vertex_count(); ++v) mesh.rest.row(v) = positions[static_cast<std::size_t>(v)];
@@ -107,7 +79,7 @@ GridGarment grid_garment(const std::vector<GridPanel>& panels, const std::vector
     for (std::size_t i = 0; i < a.size(); ++i) pairs.emplace_back(a[i], b[b.size() - 1 - i]);
     mesh.seam_vertices.push_back(pairs);
   }
-  sew_nodes(mesh);
+  weld_seams(mesh);
   return garment;
 }
 

@@ -3,40 +3,13 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
+
+#include "tests/support/rectangles.h"
 
 namespace toile::test {
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-
-Panel rectangle(const std::string& name, double width, double height) {
-  Panel panel;
-  panel.name = name;
-  panel.corners = {{0, 0}, {width, 0}, {width, height}, {0, height}};
-  panel.edges.resize(4);
-  return panel;
-}
-
-void weld(PatternMesh& mesh) {
-  std::vector<int> parent(static_cast<std::size_t>(mesh.vertex_count()));
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[static_cast<std::size_t>(v)] != v) v = parent[static_cast<std::size_t>(v)];
-    return v;
-  };
-  for (const auto& seam : mesh.seam_vertices)
-    for (const auto& [a, b] : seam) {
-      const int ra = root(a), rb = root(b);
-      parent[static_cast<std::size_t>(std::max(ra, rb))] = std::min(ra, rb);
-    }
-  mesh.node_of_vertex.assign(parent.size(), -1);
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    int& node = mesh.node_of_vertex[static_cast<std::size_t>(root(v))];
-    if (node < 0) node = mesh.node_count++;
-    mesh.node_of_vertex[static_cast<std::size_t>(v)] = node;
-  }
-}
 
 // Vertices of panel edge e (0 bottom, 1 right, 2 top, 3 left) of a grid whose lower left vertex is `first`.
 std::vector<int> grid_edge(int e, int first, int columns, int rows) {
@@ -155,7 +128,7 @@ PatternMesh structured_mesh(const Pattern& rectangles, int columns, int rows) {
     for (std::size_t i = 0; i < a.size(); ++i)
       mesh.seam_vertices.back().emplace_back(a[i], seam.right_wrong ? b[i] : b[b.size() - 1 - i]);
   }
-  weld(mesh);
+  weld_seams(mesh);
   const Panel& first = rectangles.panels[0];
   mesh.target_edge_length = (first.corners[2] - first.corners[0]).cwiseQuotient(Vec2(columns, rows)).mean();
   return mesh;

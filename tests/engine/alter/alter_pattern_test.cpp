@@ -6,16 +6,16 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/grid_garment.h"
+#include "tests/engine/alter/altered_grid.h"
 
 namespace toile {
 namespace {
 
+using test::alter;
 using test::grid_garment;
 using test::GridGarment;
-using Map = std::function<Vec2(int panel, const Vec2&)>;
-
-constexpr double kPerCm2 = 1e4;
+using test::kPerCm2;
+using test::Map;
 
 GridGarment sheet(double spacing = 0.02, double jitter = 0.2) {
   return grid_garment({{"front", 0.4, 0.6, static_cast<int>(0.4 / spacing), static_cast<int>(0.6 / spacing), jitter}});
@@ -24,10 +24,6 @@ GridGarment sheet(double spacing = 0.02, double jitter = 0.2) {
 struct Areas {
   double inserted, removed;
 };
-
-AlterPatternResult alter(const GridGarment& garment, const Map& map, const AlterPatternOptions& options = {}) {
-  return alter_pattern(garment.pattern, garment.mesh, garment.mapped(map), options);
-}
 
 void expect_areas(const AlterPatternResult& result, const Areas& wanted, double tolerance) {
   EXPECT_NEAR(result.inserted_area * kPerCm2, wanted.inserted, tolerance);

@@ -7,24 +7,21 @@
 #include "engine/geometry/curve.h"
 #include "engine/geometry/inner_point.h"
 #include "engine/stages/import_pattern.h"
-#include "tests/support/grid_garment.h"
+#include "tests/engine/alter/altered_grid.h"
 
 namespace toile {
 namespace {
 
+using test::alter;
 using test::grid_garment;
 using test::GridGarment;
-using Map = std::function<Vec2(int panel, const Vec2&)>;
+using test::kPerCm2;
+using test::Map;
 
-constexpr double kPerCm2 = 1e4;
 constexpr double kSameLength = 5e-4;  // m: sewn sides against their intended lengths
 
 GridGarment sheet() {
   return grid_garment({{"front", 0.4, 0.6, 20, 30, 0.2}});
-}
-
-AlterPatternResult alter(const GridGarment& garment, const Map& map, const AlterPatternOptions& options = {}) {
-  return alter_pattern(garment.pattern, garment.mesh, garment.mapped(map), options);
 }
 
 double area_of(const SewnPattern& sewn, bool insertions) {

@@ -3,24 +3,13 @@
 
 #include "engine/sim/drape_energy.h"
 #include "tests/engine/sim/finite_difference.h"
-#include "tests/support/tubes.h"
+#include "tests/engine/sim/tube_scene.h"
 
 namespace toile {
 namespace {
 
-constexpr double kRadius = 0.14;
-
-struct Scene {
-  Pattern pattern = test::tube_skirt_pattern(0.9, 0.3, 0.1, 0.2);
-  PatternMesh mesh = test::structured_mesh(pattern, 6, 4);
-  Cloth cloth = make_cloth(pattern, mesh);
-  CylinderField field{kRadius};
-  Points3 at(double radius) const {
-    return test::wrapped_tube(
-               pattern, mesh, [radius](double) { return radius; }, 0.1)
-        .nodes;
-  }
-};
+using test::kRadius;
+using Scene = test::TubeScene;
 
 test::EnergyFunction energy_of(Contact& contact) {
   return [&contact](const Points3& x, Points3& g) {

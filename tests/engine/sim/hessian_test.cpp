@@ -4,13 +4,13 @@
 #include "engine/sim/energy_hessian.h"
 #include "engine/sim/membrane.h"
 #include "tests/engine/sim/finite_difference.h"
+#include "tests/engine/sim/tube_scene.h"
 #include "tests/support/solids.h"
-#include "tests/support/tubes.h"
 
 namespace toile {
 namespace {
 
-constexpr double kRadius = 0.14;
+using test::kRadius;
 
 using Gradient = std::function<Points3(const Points3&)>;
 
@@ -110,19 +110,7 @@ TEST(Hessian, ProjectedIsExactInTension) {
   EXPECT_LT((dense(s.membrane_hessian(x, Curvature::Projected)) - exact).norm(), 1e-9 * exact.norm());
 }
 
-struct Tube {
-  Pattern pattern = test::tube_skirt_pattern(0.9, 0.3, 0.1, 0.2);
-  PatternMesh mesh = test::structured_mesh(pattern, 6, 4);
-  Cloth cloth = make_cloth(pattern, mesh);
-  CylinderField field{kRadius};
-  Points3 at(double radius) const {
-    return test::wrapped_tube(
-               pattern, mesh, [radius](double) { return radius; }, 0.1)
-        .nodes;
-  }
-};
-
-void expect_contact_hessian(const Tube& s, Contact& contact, const Points3& x, double tolerance) {
+void expect_contact_hessian(const test::TubeScene& s, Contact& contact, const Points3& x, double tolerance) {
   BlockHessian hessian(s.cloth);
   contact.add_hessian(x, Curvature::Exact, hessian);
   const Gradient gradient = [&](const Points3& p) {
@@ -137,7 +125,7 @@ void expect_contact_hessian(const Tube& s, Contact& contact, const Points3& x, d
 }
 
 TEST(Hessian, OfContactIsTheDerivativeWhenTouchingAndWhenDeep) {
-  Tube s;
+  test::TubeScene s;
   for (double radius : {kRadius + 0.001, kRadius - 0.02}) {
     Contact contact(s.cloth, s.field, {});
     expect_contact_hessian(s, contact, s.at(radius) + test::random_points(s.mesh.node_count, 3e-4, 5), 1e-5);
@@ -145,7 +133,7 @@ TEST(Hessian, OfContactIsTheDerivativeWhenTouchingAndWhenDeep) {
 }
 
 TEST(Hessian, OfFrictionIsTheDerivativeStickingAndSliding) {
-  Tube s;
+  test::TubeScene s;
   const Points3 touching = s.at(kRadius + 0.002);
   for (double slide : {0.0, 0.0004, 0.004}) {
     Contact contact(s.cloth, s.field, {});
@@ -162,7 +150,7 @@ TEST(Hessian, OfTheFrictionProfileAtItsAnchorIsASpringInThePlane) {
 }
 
 TEST(Hessian, OfTheWholeEnergyHasHoldsPinsBendingAndContact) {
-  Tube s;
+  test::TubeScene s;
   s.pattern.fabric.bending_stiffness = 1e-3;
   s.cloth = make_cloth(s.pattern, s.mesh);
   Contact contact(s.cloth, s.field, {});
