@@ -17,6 +17,7 @@
 #include "engine/io/json.h"
 #include "engine/io/options_json.h"
 #include "engine/io/schema_texts.h"
+#include "engine/io/schema_words.h"
 
 namespace toile {
 
@@ -120,9 +121,14 @@ SchemaCheck check_schema(std::span<const std::uint8_t> bytes, const std::string&
   loader.load(text->text, schema);
   valijson::Validator validator;
   valijson::ValidationResults found;
-  validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &found);
-  for (valijson::ValidationResults::Error error; result.problems.size() < kMostProblems && found.popError(error);)
-    result.problems.push_back({pointer_of(error.context), error.description});
+  const bool agrees = validator.validate(schema, valijson::adapters::NlohmannJsonAdapter(document), &found);
+  const json whole = json::parse(text->text);
+  for (valijson::ValidationResults::Error error; result.problems.size() < kMostProblems && found.popError(error);) {
+    const std::string pointer = pointer_of(error.context);
+    const std::string words = schema_words(error.description, pointer, document, whole);
+    if (!words.empty()) result.problems.push_back({pointer, words});
+  }
+  if (!agrees && result.problems.empty()) result.problems.push_back({"/", "does not agree with the schema"});
   return result;
 }
 

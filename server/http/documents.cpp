@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/io/json.h"
 #include "engine/io/schema_check.h"
 #include "server/http/problem.h"
 
@@ -18,7 +19,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr int kMaxDepth = 64;
 constexpr int kMaxPage = 200;
 constexpr std::size_t kMaxLabels = 50, kMaxLabelBytes = 100;
 
@@ -41,20 +41,8 @@ int number_of(const Request& request, const std::string& name, int fallback, int
   return value;
 }
 
-bool too_deep(const std::string& text) {
-  int depth = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (quoted && text[i] == '\\')
-      ++i;
-    else if (text[i] == '"')
-      quoted = !quoted;
-    else if (!quoted && (text[i] == '[' || text[i] == '{') && ++depth > kMaxDepth)
-      return true;
-    else if (!quoted && (text[i] == ']' || text[i] == '}'))
-      --depth;
-  }
-  return false;
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 }  // namespace
@@ -168,23 +156,21 @@ json read_json(Request& request, std::int64_t max_bytes, std::string* raw) {
     return static_cast<std::int64_t>(text.size()) <= max_bytes;
   });
   if (!complete) throw Problem{400, "file_malformed", "the body ended early", {}, {}};
-  if (too_deep(text)) throw Problem{400, "file_malformed", "the JSON is nested deeper than 64 levels", {}, {}};
   if (raw) *raw = text;
   try {
-    return json::parse(text);
-  } catch (const json::parse_error& error) {
-    throw Problem{400, "file_malformed", std::string("not valid JSON: ") + error.what(), {}, {}};
+    return parse_json(bytes_of(text), "request");
+  } catch (const Error& error) {
+    throw Problem{400, "file_malformed", error.message, {}, {}};
   }
 }
 
 void require_schema(const json& document, const std::string& schema) {
   const std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace);
-  const SchemaCheck check =
-      check_schema(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), schema);
+  const SchemaCheck check = check_schema(bytes_of(text), schema);
   if (check.problems.empty()) return;
   Problem problem{422,
                   std::string(error_name(ErrorCode::BadUsage)),
-                  "the request does not agree with /schemas/" + schema + ".schema.json",
+                  check.problems[0].message + " (see /schemas/" + schema + ".schema.json)",
                   {},
                   {}};
   for (const SchemaProblem& found : check.problems) problem.errors.push_back({found.pointer, found.message});

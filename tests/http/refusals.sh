@@ -30,6 +30,7 @@ refused "a garment's id as a body" 404 not_found "" "$(on "/v1/bodies/$garment")
 refused "no such artifact" 404 not_found "" "$(on /v1/jobs/job_0/artifacts/x.png)"
 refused "no such batch" 404 not_found "" "$(on /v1/batches/batch_0)"
 refused "broken JSON" 400 file_malformed "" "${jobs[@]}" -d '{"garment":'
+refused "a number beyond all" 400 file_malformed "" "${jobs[@]}" -d '{"garment":1e999}'
 refused "deep JSON" 400 file_malformed "" "${jobs[@]}" -d "$(printf '[%.0s' $(seq 100))"
 refused "JSON of another type" 422 bad_usage "" "${jobs[@]}" -d '[]'
 refused "not JSON" 415 format_unknown "" -X POST -H 'Content-Type: text/plain' -d 'x' "$(on /v1/jobs)"

@@ -56,6 +56,33 @@ TEST(SchemaCheck, NamesThePlaceOfEveryProblem) {
   EXPECT_TRUE(vertex);
 }
 
+TEST(SchemaCheck, SaysWhatIsThereAndWhatWasExpected) {
+  const auto said = [](const std::string& text, const std::string& schema) {
+    std::string lines;
+    for (const SchemaProblem& problem : check(text, schema).problems)
+      lines += problem.pointer + " " + problem.message + "\n";
+    return lines;
+  };
+  EXPECT_EQ(said(R"({"stretch_limit": 7})", "options"),
+            "/stretch_limit found 7, at least 0.005, at most 0.3 is expected\n");
+  EXPECT_EQ(said(R"({"preset": "fast"})", "options"),
+            "/preset found \"fast\", expected one of draft, standard, fine\n");
+  EXPECT_EQ(said(R"({"l_shapes": 1})", "options"), "/l_shapes expected boolean, found 1\n");
+  EXPECT_EQ(said(R"({"schema": "toile/result/1"})", "options"),
+            "/schema found \"toile/result/1\", expected toile/options/1\n");
+  const std::string unknown = said(R"({"presett": "draft"})", "options");
+  EXPECT_TRUE(unknown.starts_with("/ unknown member \"presett\"; known here are cut_smoothness, ")) << unknown;
+  const std::string job = said(R"({"garment": "skirt"})", "job_request");
+  EXPECT_NE(job.find("/garment \"skirt\" has not the form expected here: The id that POST /v1/garments"), job.npos)
+      << job;
+  EXPECT_NE(job.find("/ the member \"reference_body\" is missing; add it\n"), job.npos) << job;
+  // Through a definition that several places share.
+  const std::string panel = said(
+      R"({"pattern": {"panels": {"a": {"vertices": [[0,0],[1,"x"]], "edges": [{"endpoints":[0,1]},{"endpoints":[1,0]}]}}}})",
+      "garment");
+  EXPECT_NE(panel.find("/pattern/panels/a/vertices/1/1 expected number, found \"x\"\n"), panel.npos) << panel;
+}
+
 TEST(SchemaCheck, RefusesWhatNoSchemaIsKnownFor) {
   EXPECT_THROW(check(R"({"colour": "blue"})"), Error);
   EXPECT_THROW(check(R"({"schema": "toile/nothing/1"})"), Error);
