@@ -3,13 +3,15 @@
 
 #include <algorithm>
 
+#include "engine/alter/part_openings.h"
 #include "engine/alter/propagate_tear.h"
-#include "engine/geometry/split_polygon.h"
 
 namespace toile {
 namespace {
 
-constexpr double kSamePoint = 1e-6;  // m, along a side: cloth and outline share one point there
+constexpr double kBends = 1.05;       // times the least width, so that strips along hollow sides have it too
+constexpr double kStraight = 0.9995;  // chord of a side to its length: above it no bend takes width
+constexpr double kSamePoint = 1e-6;   // m, along a side: cloth and outline share one point there
 
 // Points of every wanted side, shared by the outline and by the cloth that hangs on it: equal places, equal numbers.
 class SharedPoints {
@@ -91,25 +93,54 @@ std::vector<Vec2> kept_outline(const Sheet& sheet, const std::vector<BorderEdge>
   return outline;
 }
 
-double perimeter(const std::vector<Vec2>& loop) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < loop.size(); ++i) sum += (loop[(i + 1) % loop.size()] - loop[i]).norm();
-  return sum;
-}
+// A stretch of a wanted side that the cloth stands back from.
+struct OpenRun {
+  std::vector<double> at, gap;              // arc length along the wanted side, and how far the cloth is from there
+  bool from_start = false, to_end = false;  // of the side
+  double largest() const { return *std::max_element(gap.begin(), gap.end()); }
+};
 
-bool worth_sewing(const PolygonWithHoles& opening, const RecutOptions& options) {
-  const double size = area(opening);
-  return size >= options.least_area && 2.0 * size / perimeter(opening.outline) >= options.least_width;
-}
-
-// Whether a side is let go by less than a strip that can be sewn, and by more than its turned-in cloth gives.
-bool too_narrow(const Sheet& sheet, int side, const RecutOptions& options) {
-  double largest = 0.0;
-  for (int v = 0; v < sheet.vertex_count(); ++v) {
-    const SheetAnchor* anchor = sheet.vertices[static_cast<std::size_t>(v)].anchor(side);
-    if (anchor && !anchor->attached) largest = std::max(largest, gap_to_side(sheet, v, side));
+// Places of the cloth's border along a side, in order, with how far open each is.
+OpenRun all_along(const Sheet& sheet, int side) {
+  std::vector<std::pair<double, int>> places;  // on the cloth's side
+  for (int v = 0; v < sheet.vertex_count(); ++v)
+    if (const SheetAnchor* anchor = sheet.vertices[static_cast<std::size_t>(v)].anchor(side))
+      places.emplace_back(anchor->at, v);
+  std::sort(places.begin(), places.end());
+  OpenRun whole{{}, {}, true, true};
+  for (const auto& [at, v] : places) {
+    const SheetVertex& vertex = sheet.vertices[static_cast<std::size_t>(v)];
+    whole.at.push_back(sheet.wanted_sides[static_cast<std::size_t>(side)].closest(vertex.now).at);
+    whole.gap.push_back(vertex.anchor(side)->attached ? 0.0 : std::max(0.0, gap_to_side(sheet, v, side)));
   }
-  return largest > std::max(0.0, options.side_room[static_cast<std::size_t>(side)]) && largest < options.least_strip;
+  return whole;
+}
+
+// Parts of it that are open by more than what is eased in, each with the shut places it ends at.
+std::vector<OpenRun> open_runs(const OpenRun& whole, double least_width) {
+  std::vector<OpenRun> runs;
+  const std::size_t count = whole.at.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (whole.gap[i] < least_width) continue;
+    const std::size_t first = i > 0 ? i - 1 : 0;
+    while (i < count && whole.gap[i] >= least_width) ++i;
+    const std::size_t last = std::min(i, count - 1);
+    const auto part = [&](const std::vector<double>& values) {
+      return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(first),
+                                 values.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    };
+    runs.push_back({part(whole.at), part(whole.gap), whole.gap[first] >= least_width, i == count});
+  }
+  return runs;
+}
+
+// Whether it is less open than a strip that can be sewn, and more than the side's turned-in cloth gives.
+bool too_narrow(const OpenRun& run, double room, const RecutOptions& options) {
+  return run.largest() > std::max(room, options.least_width) && run.largest() < options.least_strip;
+}
+
+bool is_straight(const SideCurve& side) {
+  return (side.points().back() - side.points().front()).norm() > kStraight * side.length();
 }
 
 // What lies within `depth` of a wanted side, in pieces.
@@ -122,6 +153,26 @@ Loops band_along(const SideCurve& side, double depth) {
   return band;
 }
 
+// The run as much deeper as makes its widest place `depth`; it ends where it ended.
+Loops deeper_run(const SideCurve& side, const OpenRun& run, double depth) {
+  const double share = depth / run.largest();
+  const std::size_t count = run.at.size();
+  const auto inside = [&](std::size_t i) {
+    const bool shut = (i == 0 && !run.from_start) || (i + 1 == count && !run.to_end);
+    const SideFoot foot = side.closest(side.point(run.at[i]));
+    return Vec2(foot.point - (shut ? 1.0 : share) * run.gap[i] * foot.normal);
+  };
+  Loops band;
+  for (std::size_t i = 1; i < count; ++i)
+    band.push_back({side.point(run.at[i - 1]), side.point(run.at[i]), inside(i), inside(i - 1)});
+  return band;
+}
+
+// Kept cloth in the middle of an opening is a crumb; more is left for the caller to refuse.
+void fill_crumbs(double least_area, PolygonWithHoles& opening) {
+  std::erase_if(opening.holes, [&](const auto& hole) { return std::abs(signed_area(hole)) < least_area; });
+}
+
 double sum_of_areas(const std::vector<std::vector<Vec2>>& outlines) {
   double sum = 0.0;
   for (const auto& outline : outlines) sum += std::abs(signed_area(outline));
@@ -131,14 +182,19 @@ double sum_of_areas(const std::vector<std::vector<Vec2>>& outlines) {
 void cut_back_narrow_sides(const Sheet& sheet, const RecutOptions& options, RecutPanel& panel) {
   Loops bands;
   for (int side = 0; side < static_cast<int>(options.side_room.size()); ++side)
-    if (too_narrow(sheet, side, options))
-      for (auto& part : band_along(sheet.wanted_sides[static_cast<std::size_t>(side)], options.least_strip))
+    for (const OpenRun& run : open_runs(all_along(sheet, side), options.least_width)) {
+      if (!too_narrow(run, options.side_room[static_cast<std::size_t>(side)], options)) continue;
+      const SideCurve& curve = sheet.wanted_sides[static_cast<std::size_t>(side)];
+      const double depth = (is_straight(curve) ? 1.0 : kBends) * options.least_strip;
+      for (auto& part : run.from_start&& run.to_end ? band_along(curve, depth) : deeper_run(curve, run, depth))
         bands.push_back(std::move(part));
+    }
   if (bands.empty()) return;
   panel.cut_back = sum_of_areas(panel.kept);
   std::vector<std::vector<Vec2>> kept;
   for (const auto& outline : panel.kept)
-    for (PolygonWithHoles& part : polygon_difference({outline}, bands)) kept.push_back(std::move(part.outline));
+    for (PolygonWithHoles& part : polygon_difference({outline}, bands))
+      if (area(part) >= options.least_area) kept.push_back(std::move(part.outline));
   panel.kept = std::move(kept);
   panel.cut_back -= sum_of_areas(panel.kept);
 }
@@ -157,17 +213,22 @@ RecutPanel recut(const Sheet& sheet, const RecutOptions& options) {
                      });
   if (whole) return result;
   cut_back_narrow_sides(sheet, options, result);
+  const PartOpeningOptions parting{options.least_area, options.least_width, options.least_strip, options.l_shapes};
   for (PolygonWithHoles& opening : polygon_difference({result.wanted}, result.kept)) {
-    if (!worth_sewing(opening, options)) {
-      ++result.dropped;
-      continue;
-    }
-    result.opening_area += area(opening);
-    if (options.l_shapes || !opening.holes.empty()) {
+    fill_crumbs(options.least_area, opening);
+    if (!opening.holes.empty()) {
+      result.opening_area += area(opening);
       result.openings.push_back(std::move(opening));
       continue;
     }
-    for (auto& strip : split_at_reflex_corners(opening.outline)) result.openings.push_back({std::move(strip), {}});
+    for (const auto& part : parted_at_necks(opening.outline, result.wanted, parting)) {
+      if (!worth_sewing(part, parting)) {
+        ++result.dropped;
+        continue;
+      }
+      result.opening_area += signed_area(part);
+      for (auto& strip : strips_of(part, parting)) result.openings.push_back({std::move(strip), {}});
+    }
   }
   return result;
 }

@@ -27,12 +27,33 @@ double distance_to_polygon(const std::vector<Vec2>& polygon, const Vec2& point) 
   return least;
 }
 
+namespace {
+
+// Middles of the chords across from every edge: a grid can miss a long narrow polygon.
+void try_chord_middles(const std::vector<Vec2>& polygon, InnerPoint& best) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if ((b - a).squaredNorm() == 0.0) continue;
+    const Vec2 along = (b - a).normalized(), across(-along.y(), along.x());
+    for (const Vec2& way : {across, Vec2(-across)}) {
+      const Vec2 start = 0.5 * (a + b) + 1e-3 * (b - a).norm() * way;
+      if (!inside_polygon(polygon, start)) continue;
+      const Vec2 middle = start + 0.5 * chord_through(polygon, start, way)[1] * way;
+      const double clearance = distance_to_polygon(polygon, middle);
+      if (clearance > best.clearance) best = {middle, clearance};
+    }
+  }
+}
+
+}  // namespace
+
 InnerPoint roomiest_point(const std::vector<Vec2>& polygon) {
   InnerPoint best;
   if (polygon.empty()) return best;
   best.at = polygon[0];
   Vec2 low = polygon[0], high = polygon[0];
   for (const Vec2& p : polygon) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  try_chord_middles(polygon, best);
   // A coarse grid over the box, then finer ones round the best point so far.
   constexpr int kCells = 16;
   for (int round = 0; round < 3; ++round) {
