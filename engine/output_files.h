@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "engine/core/record.h"
-#include "engine/outputs.h"
+#include "engine/output_file.h"
 
 namespace toile {
 

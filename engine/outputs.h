@@ -3,15 +3,10 @@
 // alone. Only what the option `outputs` asks for is made.
 #pragma once
 
+#include "engine/output_file.h"
 #include "engine/pipeline.h"
 
 namespace toile {
-
-struct OutputFile {
-  std::string name;
-  std::string content_type;
-  Bytes bytes;
-};
 
 // What documents say of an input.
 struct InputInfo {

@@ -130,7 +130,8 @@ class Attempt {
 
   Outcome outcome(const ChildEnd& end) {
     Outcome outcome;
-    if (result_ && result_->kind == ChildEvent::Kind::Done && end.signal == 0 && !state_.lost) return succeeded();
+    // However its process ends after that: its files were whole before it said so.
+    if (result_ && result_->kind == ChildEvent::Kind::Done && !state_.lost) return succeeded();
     if (state_.cancel) {
       outcome.kind = Outcome::Kind::Cancelled;
     } else if (state_.give_back || state_.lost) {
@@ -138,7 +139,7 @@ class Attempt {
     } else if (timed_out_ || end.signal == SIGXCPU || used_up_its_time(end)) {
       outcome.kind = Outcome::Kind::Failed;
       outcome.error = JobError{std::string(error_name(ErrorCode::TimedOut)), "job", time_message()};
-    } else if (result_) {
+    } else if (result_ && result_->kind == ChildEvent::Kind::Failed) {
       told(outcome);
     } else if (end.signal == SIGKILL) {
       interrupted(outcome);

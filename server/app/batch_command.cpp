@@ -108,6 +108,7 @@ class Batch {
       if (error.code == ErrorCode::Cancelled) throw;
       row.status = http::BatchRowStatus::Failed;
       row.error = std::string(error_name(error.code)) + ": " + error.what();
+      if (!context_.quiet) std::fprintf(stderr, "toile: %s\n", row.error.c_str());
     }
     return row;
   }
@@ -122,7 +123,7 @@ class Batch {
             std::size_t count) {
     Progress progress;
     progress.cancelled = context_.progress.cancelled;
-    const std::string caption = std::to_string(index + 1) + "/" + std::to_string(count);
+    const std::string caption = std::to_string(index + 1) + "/" + std::to_string(count) + " " + out.filename().string();
     progress.report = [&](std::string_view, double fraction) {
       if (context_.progress.report) context_.progress.report(caption, fraction);
     };

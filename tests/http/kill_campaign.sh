@@ -71,6 +71,7 @@ expect "answers" "$(wc -l < "$work/ids")" "$jobs"
 expect "different jobs" "$(sort -u "$work/ids" | wc -l)" "$jobs"
 expect "jobs in the database" "$(ask 'SELECT count(*) FROM jobs')" "$jobs"
 # Each end of a job writes its artifact once; the log tells every end that was accepted.
+ask "SELECT id, state, attempt, error_code, error_message FROM jobs WHERE state <> 'succeeded'" >&2
 expect "succeeded" "$(ask "SELECT count(*) FROM jobs WHERE state = 'succeeded'")" "$jobs"
 expect "artifacts" "$(ask 'SELECT count(*) FROM artifacts')" "$jobs"
 expect "ended twice" "$(jq -rR 'fromjson? | select(.event == "job_ended" and .outcome == "succeeded") | .job' "$work/log" | sort | uniq -d | wc -l)" 0
