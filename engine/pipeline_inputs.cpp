@@ -74,8 +74,10 @@ ImportedGarment take_in_garment(const GarmentInput& garment) {
   try {
     return import_garment(garment.bytes, garment.name, {garment.metre_per_uv_unit, garment.sidecar});
   } catch (const Error& error) {
+    // The file, then the place in it where there is one.
+    if (error.subject == "garment") throw Error(error.code, garment.name, error.message);
     if (!error.subject.starts_with('/')) throw;
-    throw Error(error.code, garment.name + "#" + error.subject, error.message);  // the file, then the place in it
+    throw Error(error.code, garment.name + "#" + error.subject, error.message);
   }
 }
 

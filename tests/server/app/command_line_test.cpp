@@ -103,6 +103,29 @@ TEST(CommandLine, FilesAreMadeByNameWithCommasBetween) {
   EXPECT_THAT(one.err, HasSubstr(R"({"event":"progress","stage":"drape")"));
 }
 
+TEST(CommandLine, ABrokenGarmentIsToldByItsFileAndPlace) {
+  const test::TemporaryFolder folder;
+  const std::string cut = folder.write("cut.json", "{\"pattern\":\n {");
+  const auto result = toile_says(
+      {"--quiet", "drape", "--garment", cut, "--body", "builtin:tube-14-100", "--out", folder.path() + "/out"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("cut.json: not JSON: syntax error at line 2"));
+}
+
+TEST(CommandLine, ABatchTellsWhichBodyFailsAndGoesOn) {
+  const test::TemporaryFolder folder;
+  const std::string bodies = folder.write("bodies.txt", "builtin:tube-99\nbuiltin:tube-16-100\n");
+  const auto result = toile_says({"batch", "--garment", kExamples + "tube_skirt.json", "--reference-body",
+                                  "builtin:tube-14-100", "--target-bodies", bodies, "--triangles", kTriangles,
+                                  "--outputs", "ticket.json", "--out", folder.path() + "/all"});
+  EXPECT_EQ(result.exit_code, 4);
+  EXPECT_THAT(result.err, HasSubstr("builtin:tube-99"));
+  EXPECT_THAT(result.err, HasSubstr("2/2 tube-16-100"));
+  EXPECT_THAT(result.err, HasSubstr("1 body could not be fitted"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() + "/all/tube-16-100/ticket.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() + "/all/tube-16-100/report.html"));
+}
+
 TEST(CommandLine, CheckTellsWhatAFileIsAndWhereItIsWrong) {
   const test::TemporaryFolder folder;
   EXPECT_THAT(toile_says({"check", kExamples + "leggings.json"}).out, HasSubstr("valid (garment)"));
