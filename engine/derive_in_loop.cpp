@@ -14,12 +14,14 @@ struct Scene {
   const GarmentMirrors& mirrors;
 };
 
-// One pass: the pattern that would make `shape` fit as on the reference body, and how it really drapes.
-DerivedPattern derive_and_drape(const Scene& scene, const Drape& shape, const DerivePatternOptions& derive_options,
-                                const DrapeOptions& drape_options, Progress* progress) {
+// One pass: the pattern that would make `shape` fit as on the reference body, and how it really drapes. `near`: what
+// the pass before it derived.
+DerivedPattern derive_and_drape(const Scene& scene, const Drape& shape, const Points2* near,
+                                const DerivePatternOptions& derive_options, const DrapeOptions& drape_options,
+                                Progress* progress) {
   DerivedPattern pass;
   pass.derivation = derive_pattern(scene.pattern, scene.reference_mesh, scene.reference_fit, shape, scene.mirrors,
-                                   derive_options, progress);
+                                   derive_options, progress, near);
   DrawnTarget target = draw_target(scene.pattern, scene.reference_mesh, scene.reference_fit, shape,
                                    pass.derivation.rest, scene.mirrors, derive_options, progress);
   pass.drawn = std::move(target.drawn);
@@ -42,12 +44,13 @@ DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& referen
                               const DrapeOptions& drape_options, const DeriveInLoopOptions& options,
                               Progress* progress) {
   const Scene scene{pattern, reference_mesh, reference_fit, target_body, mirrors};
-  DerivedPattern best = derive_and_drape(scene, transported, derive_options, drape_options, progress);
+  DerivedPattern best = derive_and_drape(scene, transported, nullptr, derive_options, drape_options, progress);
   std::vector<double> errors = {best.rms_stretch_error};
   while (static_cast<int>(errors.size()) < options.max_passes && best.rms_stretch_error > options.good_enough) {
-    DerivedPattern next = derive_and_drape(scene, best.drape.drape, derive_options, drape_options, progress);
+    DerivedPattern next =
+        derive_and_drape(scene, best.drape.drape, &best.derivation.rest, derive_options, drape_options, progress);
     errors.push_back(next.rms_stretch_error);
-    const bool worth_another = next.rms_stretch_error < (1.0 - options.least_gain) * best.rms_stretch_error;
+    const bool worth_another = next.rms_stretch_error < best.rms_stretch_error - options.least_gain;
     if (next.rms_stretch_error < best.rms_stretch_error) best = std::move(next);
     if (!worth_another) break;
   }

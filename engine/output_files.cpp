@@ -16,7 +16,7 @@ bool OutputFiles::named(const std::string& name) const {
 }
 
 void OutputFiles::make(const std::string& name, const char* type, const std::function<Bytes()>& work) {
-  if (named("all") || named(name)) files_.push_back({name, type, work()});
+  if (wanted(name)) files_.push_back({name, type, work()});
 }
 
 void OutputFiles::make_if_named(const std::string& name, const char* type, const std::function<Bytes()>& work) {

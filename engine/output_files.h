@@ -31,6 +31,8 @@ class OutputFiles {
   // `wanted`: names of files, or "all".
   explicit OutputFiles(const std::vector<std::string>& wanted) : wanted_(wanted) {}
 
+  // Whether a file is made by make().
+  bool wanted(const std::string& name) const { return named("all") || named(name); }
   void make(const std::string& name, const char* type, const std::function<Bytes()>& work);
   // Diagnostics: "all" does not mean them.
   void make_if_named(const std::string& name, const char* type, const std::function<Bytes()>& work);

@@ -5,6 +5,7 @@
 
 #include "engine/altered_pattern_record.h"
 #include "engine/core/content_hash.h"
+#include "engine/core/side_by_side.h"
 #include "engine/core/units.h"
 #include "engine/draw_alteration.h"
 #include "engine/io/body_json.h"
@@ -114,7 +115,8 @@ class AlterationFiles {
     frame_ = frame_of(compared);
   }
 
-  std::vector<OutputFile> make() {
+  std::vector<OutputFile> make(bool at_once) {
+    if (at_once) draw_at_once();
     make_patterns();
     make_ticket();
     make_meshes();
@@ -128,6 +130,7 @@ class AlterationFiles {
   void make_ticket();
   void make_meshes();
   void make_pictures();
+  void draw_at_once();
   Bytes report();
   Record result() const;
   Bytes picture(const Body& body, const PatternMesh& mesh, const DrapeResult& drape, const FittingMap& fit,
@@ -229,6 +232,22 @@ void AlterationFiles::make_pictures() {
   }
 }
 
+// What is asked for of the pictures that take long, by two threads.
+void AlterationFiles::draw_at_once() {
+  const auto draw = [this](const char* name, OnDemand<Bytes>& picture) {
+    const bool wanted = files_.wanted(name) || files_.wanted("report.html");
+    if (wanted) picture.value();
+    return wanted;
+  };
+  side_by_side(
+      true,
+      [&] {
+        draw("fit_reference.png", fit_reference_);
+        return draw("fit_before.png", fit_before_);
+      },
+      [&] { return fits_.after ? draw("fit_after.png", fit_after_) : draw("fit_target.png", fit_target_); });
+}
+
 Bytes AlterationFiles::report() {
   Report report;
   report.title = ticket_.garment;
@@ -307,8 +326,9 @@ std::vector<OutputFile> drape_outputs(const DrapedGarment& draped, const AlterOp
   return files.finish(std::move(result));
 }
 
-std::vector<OutputFile> alter_outputs(const AlterResult& result, const AlterOptions& options, const JobInfo& info) {
-  return AlterationFiles(result, options, info).make();
+std::vector<OutputFile> alter_outputs(const AlterResult& result, const AlterOptions& options, const JobInfo& info,
+                                      bool at_once) {
+  return AlterationFiles(result, options, info).make(at_once);
 }
 
 OutputFile timings_output(const std::vector<StageTiming>& timings) {

@@ -21,7 +21,9 @@ struct JobInfo {
 JobInfo job_info(const GarmentInput& garment, const BodyInput& body);
 JobInfo job_info(const GarmentInput& garment, const BodyInput& reference_body, const BodyInput& target_body);
 
-std::vector<OutputFile> alter_outputs(const AlterResult& result, const AlterOptions& options, const JobInfo& info);
+// `at_once`: pictures are drawn by two threads.
+std::vector<OutputFile> alter_outputs(const AlterResult& result, const AlterOptions& options, const JobInfo& info,
+                                      bool at_once = false);
 std::vector<OutputFile> drape_outputs(const DrapedGarment& result, const AlterOptions& options, const JobInfo& info);
 
 // timings.json: CPU and wall seconds of every stage, and which were read back.

@@ -8,12 +8,20 @@
 
 namespace toile {
 
-Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput& body, const AlterOptions& options,
-                                   StageRunner& runner) {
+namespace {
+
+Keyed<Pattern> take_in(const GarmentInput& garment, StageRunner& runner) {
+  return runner.run("import_pattern", 1, input_key(garment), [&] { return read_garment(garment); });
+}
+
+Keyed<Body> take_in(const BodyInput& body, StageRunner& runner) {
+  return runner.run("import_body", 4, input_key(body), [&] { return read_body(body); });
+}
+
+Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>& pattern, const Keyed<Body>& wearer,
+                              const AlterOptions& options, StageRunner& runner) {
   const MeshPanelsOptions mesh_options = mesh_options_of(options);
   const DrapeOptions drape_options = drape_options_of(options);
-  const auto pattern = runner.run("import_pattern", 1, input_key(garment), [&] { return read_garment(garment); });
-  const auto wearer = runner.run("import_body", 4, input_key(body), [&] { return read_body(body); });
   const auto mesh = runner.run("mesh_panels", 2, key_of(pattern.key, mesh_options), [&] {
     if (auto given = read_garment_mesh(garment)) return std::move(*given);
     return mesh_panels(pattern.value, mesh_options, runner.progress());
@@ -29,6 +37,14 @@ Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput&
           worn.key};
 }
 
+}  // namespace
+
+Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput& body, const AlterOptions& options,
+                                   StageRunner& runner) {
+  const auto pattern = take_in(garment, runner);
+  return drape_on(garment, pattern, take_in(body, runner), options, runner);
+}
+
 bool wants_after(const AlterOptions& options) {
   constexpr std::array<std::string_view, 4> kShowing = {"all", "target_after.obj", "fit_after.png", "report.html"};
   return std::any_of(kShowing.begin(), kShowing.end(), [&](std::string_view name) {
@@ -42,34 +58,48 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   const DerivePatternOptions derive_options = derive_options_of(options);
   const DeriveInLoopOptions loop_options = loop_options_of(options);
 
-  auto reference = drape_garment(garment, reference_body, options, runner);
-  const auto& [pattern, mesh, wearer, worn, fit] = reference.value;
-  const auto imported =
-      runner.run("import_target_body", 3, input_key(target_body), [&] { return read_target_body(target_body); });
+  auto [original, imported] = runner.run_both(
+      [&](StageRunner& part) {
+        auto taken_in = take_in(garment, part);
+        return std::pair(std::move(taken_in), take_in(reference_body, part));
+      },
+      [&](StageRunner& part) {
+        return part.run("import_target_body", 3, input_key(target_body), [&] { return read_target_body(target_body); });
+      });
   Body target = imported.value.body;
-  const auto found = runner.run("register_bodies", 5, key_of(input_key(reference_body), imported.key), [&] {
-    const Landmarks given = given_landmarks(target_body, target.normalised_from_file);
-    return register_bodies(wearer, imported.value.seen(), {.target_landmarks = given}, runner.progress());
-  });
+  auto [reference, found] = runner.run_both(
+      [&](StageRunner& part) { return drape_on(garment, original.first, original.second, options, part); },
+      [&](StageRunner& part) {
+        return part.run("register_bodies", 5, key_of(input_key(reference_body), imported.key), [&] {
+          const Landmarks given = given_landmarks(target_body, target.normalised_from_file);
+          return register_bodies(original.second.value, imported.value.seen(), {.target_landmarks = given},
+                                 part.progress());
+        });
+      });
+  const auto& [pattern, mesh, wearer, worn, fit] = reference.value;
   RegisterBodiesResult registered = found.value;
   if (imported.value.patch_triangles > 0) stand_on_soles(target, registered);
   const auto transported = runner.run("transport_garment", 3, key_of(reference.key, found.key), [&] {
     return transport_garment(mesh, worn.drape, wearer, target, registered.map, {}, runner.progress());
   });
-  const auto before = runner.run("drape_before", 5, key_of(transported.key, drape_options), [&] {
-    return drape_from(pattern, mesh, target, transported.value.drape, drape_options, runner.progress());
-  });
   const auto plane = mirror_plane_of(options, pattern);
-  const auto derived =
-      runner.run("derive_pattern", 8, key_of(transported.key, derive_options, loop_options, plane), [&] {
-        const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
-        return derive_in_loop(pattern, mesh, fit, target, transported.value.drape, mirrors, derive_options,
-                              drape_options, loop_options, runner.progress());
+  auto [before, derived] = runner.run_both(
+      [&](StageRunner& part) {
+        return part.run("drape_before", 5, key_of(transported.key, drape_options), [&] {
+          return drape_from(pattern, mesh, target, transported.value.drape, drape_options, part.progress());
+        });
+      },
+      [&](StageRunner& part) {
+        return part.run("derive_pattern", 9, key_of(transported.key, derive_options, loop_options, plane), [&] {
+          const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
+          return derive_in_loop(pattern, mesh, fit, target, transported.value.drape, mirrors, derive_options,
+                                drape_options, loop_options, part.progress());
+        });
       });
 
   FittingMap fit_before = build_fitting_map(mesh, before.value.drape);
-  return {{std::move(reference.value), target, registered, transported.value, before.value,
-           std::move(fit_before), derived.value},
+  return {{std::move(reference.value), target, registered, transported.value, before.value, std::move(fit_before),
+           derived.value},
           derived.key};
 }
 
@@ -79,7 +109,8 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
   auto ideal = derive_garment(garment, reference_body, target_body, options, runner);
   const auto& [pattern, mesh, wearer, worn, fit] = ideal.value.reference;
   const auto altered = runner.run("alter_pattern", 14, key_of(ideal.key, alter_options), [&] {
-    return alter_pattern(pattern, mesh, ideal.value.derived.mesh.rest, alter_options, runner.progress());
+    return alter_pattern(pattern, mesh, ideal.value.derived.mesh.rest, alter_options, runner.progress(),
+                         runner.at_once());
   });
   if (!wants_after(options)) {
     runner.skip("drape_altered");

@@ -2,12 +2,14 @@
 // Runs a stage, or reads its result back where the same stage has run on the same inputs before.
 //
 // The key of a result is a hash of the stage's name and version, the keys of its inputs and its options; two results
-// with one key are equal, so a key stands for its value downstream. Clocks are kept apart from results.
+// with one key are equal, so a key stands for its value downstream. Clocks are kept apart from results. Stages that
+// need nothing of each other may run at the same time: their results and their order in the timings stay the same.
 #pragma once
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "engine/core/archive.h"
 #include "engine/core/content_hash.h"
 #include "engine/core/progress.h"
+#include "engine/core/side_by_side.h"
 #include "engine/core/stage_cache.h"
 
 namespace toile {
@@ -27,7 +30,7 @@ struct Keyed {
 
 struct StageTiming {
   std::string stage;
-  double cpu_s = 0.0, wall_s = 0.0;  // of the thread that ran it
+  double cpu_s = 0.0, wall_s = 0.0;  // of the threads that ran it
   bool reused = false;               // read back instead of run
 };
 
@@ -44,11 +47,14 @@ class StageRunner {
   StageRunner(const StageRunner&) = delete;
   StageRunner& operator=(const StageRunner&) = delete;
 
-  // Both may be null; they must outlive the runner. `stages` is how many the whole job runs.
-  StageRunner(StageCache* cache, const Progress* progress, int stages);
+  // Both may be null; they must outlive the runner, and are asked by one thread at a time. `stages` is how many the
+  // whole job runs.
+  StageRunner(StageCache* cache, const Progress* progress, int stages, int threads = 1);
 
   // To be handed to stages: what they report as a fraction of their own work is passed on as one of the whole job.
   Progress* progress() { return &stage_progress_; }
+  // Whether a stage may use a second thread.
+  bool at_once() const { return job_->threads > 1; }
 
   // `work()` returns the stage's result, which archive() writes and reads. `inputs` are keys and archived options.
   template <class Work>
@@ -60,63 +66,98 @@ class StageRunner {
     const Clocks start;
     Keyed<Result> result{{}, key_of(std::string(stage), version, inputs)};
     bool reused = false;
-    if (cache_) {
-      if (const auto bytes = cache_->get(result.key)) {
-        result.value = from_bytes<Result>(*bytes);
-        reused = true;
-      }
-    }
-    if (!reused) {
+    if (const auto bytes = job_->get(result.key)) {
+      result.value = from_bytes<Result>(*bytes);
+      reused = true;
+    } else {
       result.value = std::forward<Work>(work)();
-      if (cache_) cache_->put(result.key, to_bytes(result.value));
+      if (job_->cache) job_->put(result.key, to_bytes(result.value));
     }
     timings_.push_back(start.until_now(std::string(stage), reused));
     report(&stage_progress_, stage, 1.0);
-    ++stages_done_;
+    job_->end_stage();
     return result;
+  }
+
+  // What `first(runner)` and `second(runner)` return: parts of the job that need nothing of each other.
+  template <class First, class Second>
+  auto run_both(First&& first, Second&& second) {
+    StageRunner one(*job_), other(*job_);
+    auto both = side_by_side(
+        at_once(), [&] { return first(one); }, [&] { return second(other); });
+    for (const StageRunner* part : {&one, &other})
+      timings_.insert(timings_.end(), part->timings_.begin(), part->timings_.end());
+    return both;
   }
 
   // Counts a stage as done that nothing needs.
   void skip(std::string_view stage) {
     stage_ = stage;
-    ++stages_done_;
+    job_->end_stage();
     report(&stage_progress_, stage, 0.0);
   }
 
   const std::vector<StageTiming>& timings() const { return timings_; }
 
  private:
-  struct Clocks {
-    double cpu = thread_cpu_seconds();
-    std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
+  // What the parts of a job share.
+  struct Job {
+    StageCache* cache;
+    const Progress* progress;
+    int stages, threads;
+    std::mutex mutex;
+    int stages_done = 0;
+    double furthest = 0.0;
 
-    static double thread_cpu_seconds() {
-      timespec t{};
-      clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-      return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    std::optional<Bytes> get(const std::string& key) {
+      if (!cache) return std::nullopt;
+      const std::lock_guard lock(mutex);
+      return cache->get(key);
     }
-    StageTiming until_now(std::string stage, bool reused) const {
-      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - wall;
-      return {std::move(stage), thread_cpu_seconds() - cpu, elapsed.count(), reused};
+    void put(const std::string& key, const Bytes& value) {
+      const std::lock_guard lock(mutex);
+      cache->put(key, value);
+    }
+    void end_stage() {
+      const std::lock_guard lock(mutex);
+      ++stages_done;
+    }
+    void report(std::string_view stage, double fraction) {
+      const std::lock_guard lock(mutex);
+      furthest = std::max(furthest, std::min(1.0, (stages_done + fraction) / stages));  // a stage may go in rounds
+      if (progress->report) progress->report(stage, furthest);
     }
   };
 
-  StageCache* cache_;
+  struct Clocks {
+    double cpu = work_cpu_seconds();
+    std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
+
+    StageTiming until_now(std::string stage, bool reused) const {
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - wall;
+      return {std::move(stage), work_cpu_seconds() - cpu, elapsed.count(), reused};
+    }
+  };
+
+  explicit StageRunner(Job& job) : job_(&job) { pass_on_progress(); }
+  void pass_on_progress();
+
+  std::unique_ptr<Job> whole_;  // of the runner that others are parts of
+  Job* job_;
   Progress stage_progress_;
   std::string stage_;  // the pipeline's name for what runs now
-  int stages_, stages_done_ = 0;
-  double furthest_ = 0.0;
   std::vector<StageTiming> timings_;
 };
 
-inline StageRunner::StageRunner(StageCache* cache, const Progress* progress, int stages)
-    : cache_(cache), stages_(stages) {
-  if (!progress) return;
-  stage_progress_.cancelled = progress->cancelled;
-  stage_progress_.report = [this, progress](std::string_view, double fraction) {
-    furthest_ = std::max(furthest_, std::min(1.0, (stages_done_ + fraction) / stages_));  // a stage may go in rounds
-    if (progress->report) progress->report(stage_, furthest_);
-  };
+inline StageRunner::StageRunner(StageCache* cache, const Progress* progress, int stages, int threads)
+    : whole_(new Job{cache, progress, stages, threads, {}}), job_(whole_.get()) {
+  pass_on_progress();
+}
+
+inline void StageRunner::pass_on_progress() {
+  if (!job_->progress) return;
+  stage_progress_.cancelled = job_->progress->cancelled;
+  stage_progress_.report = [this](std::string_view, double fraction) { job_->report(stage_, fraction); };
 }
 
 }  // namespace toile

@@ -9,6 +9,7 @@
 #include "engine/alter/cut_anew.h"
 #include "engine/alter/read_operations.h"
 #include "engine/alter/sew_altered.h"
+#include "engine/core/side_by_side.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 
@@ -224,15 +225,21 @@ void tell_cut_back(const AlterPatternOptions& options, AlterPatternResult& resul
 }  // namespace
 
 AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                                 const AlterPatternOptions& options, Progress* progress) {
+                                 const AlterPatternOptions& options, Progress* progress, bool at_once) {
   assert(target_rest.rows() == mesh.vertex_count() && pattern.panels.size() == mesh.panels.size());
   const CoarsePattern coarse = coarsen(pattern, mesh, target_rest, kPlanTriangles);
-  const TornPattern inserting =
-      tear_pattern(pattern, {mesh, mesh.rest, target_rest}, {coarse.mesh, coarse.mesh.rest, coarse.target_rest},
-                   pass_options(pattern, options, false), progress);
-  const TornPattern removing =
-      tear_pattern(pattern, {mesh, target_rest, mesh.rest}, {coarse.mesh, coarse.target_rest, coarse.mesh.rest},
-                   pass_options(pattern, options, true), progress);
+  const auto [inserting, removing] = side_by_side(
+      at_once,
+      [&] {
+        return tear_pattern(pattern, {mesh, mesh.rest, target_rest},
+                            {coarse.mesh, coarse.mesh.rest, coarse.target_rest}, pass_options(pattern, options, false),
+                            progress);
+      },
+      [&] {
+        return tear_pattern(pattern, {mesh, target_rest, mesh.rest},
+                            {coarse.mesh, coarse.target_rest, coarse.mesh.rest}, pass_options(pattern, options, true),
+                            progress);
+      });
   AlterPatternResult result;
   result.insertion_rounds = inserting.rounds;
   result.removal_rounds = removing.rounds;

@@ -66,8 +66,9 @@ struct AlterPatternResult {
 };
 
 // `target_rest`: #V x 2, the target pattern's flat positions of the mesh's vertices. Throws AlterationFailed,
-// Cancelled.
+// Cancelled. `at_once`: insertions and removals are looked for by a thread each; `progress` hears from both.
 AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                                 const AlterPatternOptions& options = {}, Progress* progress = nullptr);
+                                 const AlterPatternOptions& options = {}, Progress* progress = nullptr,
+                                 bool at_once = false);
 
 }  // namespace toile

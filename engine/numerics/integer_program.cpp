@@ -44,7 +44,13 @@ int bound_type(double lower, double upper) {
   return GLP_DB;
 }
 
+// GLPK keeps memory of its own for every thread that has called it.
+struct ThreadMemory {
+  ~ThreadMemory() { glp_free_env(); }
+};
+
 Problem build(const IntegerProgram& program) {
+  thread_local const ThreadMemory memory;
   Problem problem(glp_create_prob());
   glp_set_obj_dir(problem.get(), GLP_MAX);
   const int columns = static_cast<int>(program.weights.size());

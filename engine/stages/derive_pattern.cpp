@@ -20,6 +20,12 @@ constexpr double kRelativeFloor = 1e-24;  // of the area: an energy below it is 
 // some percent over a palm of cloth.
 constexpr double kSmoothWeight = 100.0;
 constexpr int kInsideSweeps = 20;
+// Sweeps of the first stage and of every later one, at most: from the reference, and from a pattern that is nearly
+// right already, where more change the fit of no garment by a hundredth of it.
+struct StageSweeps {
+  int first, later;
+};
+constexpr StageSweeps kSweeps{40, 30}, kNearSweeps{10, 10};
 constexpr double kLeastDeterminant = 0.05;  // of a triangle whose outline leaves it room: no flip, no sliver
 
 class Derivation {
@@ -36,7 +42,7 @@ class Derivation {
     held_.assign(static_cast<std::size_t>(mesh.vertex_count()), false);
   }
 
-  DerivePatternResult whole(const Pattern& pattern);
+  DerivePatternResult whole(const Pattern& pattern, const Points2* near);
   DerivePatternResult inside(const Points2& outline);
 
  private:
@@ -183,7 +189,9 @@ bool Derivation::run_stage(double weight, int sweeps) {
   return false;
 }
 
-DerivePatternResult Derivation::whole(const Pattern& pattern) {
+DerivePatternResult Derivation::whole(const Pattern& pattern, const Points2* near) {
+  if (near) result_.rest = *near;
+  const StageSweeps sweeps = near ? kNearSweeps : kSweeps;
   edges_.emplace(pattern, mesh_, side_rules(pattern, mirrors_, options_.keep_straight));
   if (options_.smooth) sides_ = smooth_sides(mesh_);
   for (std::size_t p = 0; p < mesh_.panels.size(); ++p) {
@@ -198,11 +206,11 @@ DerivePatternResult Derivation::whole(const Pattern& pattern) {
   const auto left = [&] { return options_.max_sweeps - static_cast<int>(result_.sweeps.size()); };
   const bool constrained = !edges_->terms().empty() && options_.seam_weight > 0.0;
   // Starting with the final weight locks the seams where they are; so it grows, each stage starting from the last.
-  result_.converged = run_stage(0.0, constrained ? std::min(left(), 40) : left());
+  result_.converged = run_stage(0.0, constrained ? std::min(left(), sweeps.first) : left());
   if (constrained)
     for (double weight = 10.0; weight <= options_.seam_weight * 1.000001; weight *= 10.0) {
       report(progress_, "derive", 1.0 - static_cast<double>(left()) / options_.max_sweeps);
-      result_.converged = run_stage(weight, std::min(left(), 30));
+      result_.converged = run_stage(weight, std::min(left(), sweeps.later));
     }
   finish();
   result_.seam_residual = edges_->side_residual(result_.rest);
@@ -234,10 +242,11 @@ void Derivation::finish() {
 DerivePatternResult derive_pattern(const Pattern& pattern, const PatternMesh& reference_mesh,
                                    const FittingMap& reference_fit, const Drape& target_drape,
                                    const GarmentMirrors& mirrors, const DerivePatternOptions& options,
-                                   Progress* progress) {
+                                   Progress* progress, const Points2* near) {
   assert(reference_fit.triangle_count() == reference_mesh.triangle_count());
   assert(target_drape.nodes.rows() == reference_mesh.node_count && options.max_sweeps >= 1);
-  return Derivation(reference_mesh, reference_fit, target_drape, mirrors, options, progress).whole(pattern);
+  assert(!near || near->rows() == reference_mesh.vertex_count());
+  return Derivation(reference_mesh, reference_fit, target_drape, mirrors, options, progress).whole(pattern, near);
 }
 
 DerivePatternResult derive_inside(const PatternMesh& reference_mesh, const FittingMap& reference_fit,

@@ -44,13 +44,14 @@ struct DerivePatternResult {
 };
 
 // Requires: reference_fit of reference_mesh's triangles, target_drape of its nodes; reference_mesh made from `pattern`;
-// `mirrors` of them, or empty for a pattern that need not be symmetric.
+// `mirrors` of them, or empty for a pattern that need not be symmetric; `near`, where it is known, what an earlier
+// call returned for the same reference and a shape much like this one: fewer sweeps will do.
 // Ensures: locked panels keep their shape exactly; the energy never grows while lambda stays.
 // Throws: DerivationFailed when the system cannot be factored; Cancelled.
 DerivePatternResult derive_pattern(const Pattern& pattern, const PatternMesh& reference_mesh,
                                    const FittingMap& reference_fit, const Drape& target_drape,
                                    const GarmentMirrors& mirrors = {}, const DerivePatternOptions& options = {},
-                                   Progress* progress = nullptr);
+                                   Progress* progress = nullptr, const Points2* near = nullptr);
 
 // The inside of panels whose outlines are given: vertices along edges stay where `outline` (#V x 2, m) has them, the
 // others minimise the same energy. Throws as derive_pattern.

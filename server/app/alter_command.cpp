@@ -43,9 +43,9 @@ void alter(const JobFiles& files, Context& context) {
   const GarmentInput garment = read_garment_input(files);
   const BodyInput reference = read_body_input(files.reference_body, files.reference_source);
   const BodyInput target = read_body_input(files.target_body, files.target_source);
-  StageRunner runner(nullptr, &context.progress, kAlterStages);
+  StageRunner runner(nullptr, &context.progress, kAlterStages, threads_of(context));
   const AlterResult result = alter_garment(garment, reference, target, options, runner);
-  write_outputs(files.out, alter_outputs(result, options, job_info(garment, reference, target)));
+  write_outputs(files.out, alter_outputs(result, options, job_info(garment, reference, target), runner.at_once()));
   write_outputs(files.out, {timings_output(runner.timings())});
 }
 
@@ -54,7 +54,7 @@ void drape_one(const JobFiles& files, Context& context) {
   prepare_folder(files.out);
   const GarmentInput garment = read_garment_input(files);
   const BodyInput body = read_body_input(files.reference_body, files.reference_source);
-  StageRunner runner(nullptr, &context.progress, kDrapeStages);
+  StageRunner runner(nullptr, &context.progress, kDrapeStages, threads_of(context));
   const auto draped = drape_garment(garment, body, options, runner);
   write_outputs(files.out, drape_outputs(draped.value, options, job_info(garment, body)));
   write_outputs(files.out, {timings_output(runner.timings())});

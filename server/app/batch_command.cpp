@@ -127,9 +127,10 @@ class Batch {
     progress.report = [&](std::string_view, double fraction) {
       if (context_.progress.report) context_.progress.report(caption, fraction);
     };
-    StageRunner runner(&stages_, &progress, kAlterStages);
+    StageRunner runner(&stages_, &progress, kAlterStages, threads_of(context_));
     const AlterResult result = alter_garment(garment_, reference_, target, options_, runner);
-    std::vector<OutputFile> made = alter_outputs(result, options_, job_info(garment_, reference_, target));
+    std::vector<OutputFile> made =
+        alter_outputs(result, options_, job_info(garment_, reference_, target), runner.at_once());
     made.push_back(timings_output(runner.timings()));
     for (const OutputFile& file : made) write_file(out / file.name, file.bytes);
     write_file(out / ".key", Bytes(key.begin(), key.end()));

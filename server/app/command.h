@@ -3,8 +3,10 @@
 // codes.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
+#include <thread>
 
 #include <CLI/CLI.hpp>
 
@@ -19,6 +21,11 @@ struct Context {
   int threads = 0;    // 0: as many as there are cores
   Progress progress;  // a bar on a terminal, one line per stage otherwise; cancelled by SIGINT and SIGTERM
 };
+
+// How many threads the subcommand may use.
+inline int threads_of(const Context& context) {
+  return context.threads > 0 ? context.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
 
 // Adds the subcommand's options to `app` and sets what it runs as its callback.
 void add_alter_command(CLI::App& app, Context& context);

@@ -71,16 +71,17 @@ JobReport alter_job(const JobContext& context) {
   const GarmentInput garment = garment_input(context.inputs.at("garment"));
   const BodyInput reference = body_input(context.inputs.at("reference_body"));
   const BodyInput target = body_input(context.inputs.at("target_body"));
-  StageRunner runner(context.stages, context.progress, kAlterStages);
+  StageRunner runner(context.stages, context.progress, kAlterStages, context.threads);
   const AlterResult result = alter_garment(garment, reference, target, options, runner);
-  return hand_over(context, alter_outputs(result, options, job_info(garment, reference, target)), runner.timings());
+  return hand_over(context, alter_outputs(result, options, job_info(garment, reference, target), runner.at_once()),
+                   runner.timings());
 }
 
 JobReport drape_job(const JobContext& context) {
   const AlterOptions options = read_options(bytes_of(context.options));
   const GarmentInput garment = garment_input(context.inputs.at("garment"));
   const BodyInput body = body_input(context.inputs.at("reference_body"));
-  StageRunner runner(context.stages, context.progress, kDrapeStages);
+  StageRunner runner(context.stages, context.progress, kDrapeStages, context.threads);
   const auto draped = drape_garment(garment, body, options, runner);
   return hand_over(context, drape_outputs(draped.value, options, job_info(garment, body)), runner.timings());
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // batch [GARMENT] [--bodies NAME,NAME,...] [--triangles N]: one garment for many bodies of one family with the stages
-// shared, against each job alone; and two such jobs at once in two threads. CPU and wall seconds of every body, and
-// whether the files are the same to the last byte.
+// shared, against each job alone: CPU seconds of every body.
+// threads [GARMENT] [--bodies NAME] [--triangles N]: one job with two threads, and two and four jobs at once, against
+// one job with one. Both tell whether the files are the same to the last byte.
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -100,6 +101,9 @@ int bench_threads(const Arguments& arguments) {
   const JobRun alone = run_job(scene, options);
   Table table({"jobs at once", "wall s", "CPU s a job", "jobs a wall second over one", "same bytes"});
   table.add({"1", fixed(alone.wall_s, 2), fixed(alone.cpu_s, 2), "1.00", "yes"});
+  const JobRun two = run_job(scene, options, nullptr, 2);
+  table.add({"1, two threads", fixed(two.wall_s, 2), fixed(two.cpu_s, 2), fixed(alone.wall_s / two.wall_s, 2),
+             same_files(two.files, alone.files) ? "yes" : "NO"});
   for (const int count : {2, 4}) {
     std::vector<JobRun> runs(static_cast<std::size_t>(count));
     const double wall = wall_seconds(), cpu = cpu_seconds();

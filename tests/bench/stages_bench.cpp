@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stages [SCENE...] [--triangles N] [--outputs none|images|all] [--preset draft|standard|fine]
+// stages [SCENE...] [--triangles N] [--outputs none|images|all] [--preset draft|standard|fine] [--threads N]
 // A whole job, cold: CPU and wall seconds of every stage (median, least and most of the repeats) and the peak memory
 // while it ran, beside the budget for 10,000 triangles.
 #include <algorithm>
@@ -18,6 +18,7 @@ namespace {
 struct Request {
   std::vector<std::string> scenes;
   AlterOptions options;
+  int threads = 1;  // of the job
 };
 
 Request parse(const std::vector<std::string>& words) {
@@ -31,6 +32,8 @@ Request parse(const std::vector<std::string>& words) {
       request.options.outputs = outputs_named(words[++i]);
     else if (words[i] == "--preset" && more)
       request.options.preset = preset_named(words[++i]);
+    else if (words[i] == "--threads" && more)
+      request.threads = std::atoi(words[++i].c_str());
     else
       request.scenes.push_back(words[i]);
   }
@@ -77,7 +80,7 @@ void run_scene(const Request& request, const std::string& name, int repeats, Tab
   Samples all;
   int triangles = 0;
   for (int i = 0; i < repeats; ++i) {
-    const JobRun run = run_job(scene, request.options);
+    const JobRun run = run_job(scene, request.options, nullptr, request.threads);
     triangles = run.result.reference.mesh.triangle_count();
     std::map<std::string, int> seen;
     for (const StageCost& cost : run.stages) {

@@ -37,15 +37,16 @@ class MemoryByStage {
 
 }  // namespace
 
-JobRun run_job(const test::Scene& scene, const AlterOptions& options, StageCache* cache) {
+JobRun run_job(const test::Scene& scene, const AlterOptions& options, StageCache* cache, int threads) {
   JobRun run;
   const double cpu = cpu_seconds(), wall = wall_seconds();
   MemoryByStage memory;
-  StageRunner runner(cache, memory.progress(), kAlterStages);
+  StageRunner runner(cache, memory.progress(), kAlterStages, threads);
   run.result = alter_garment(scene.garment, scene.reference, scene.target, options, runner);
   memory.end_stage();
   const double files_cpu = cpu_seconds(), files_wall = wall_seconds();
-  run.files = alter_outputs(run.result, options, job_info(scene.garment, scene.reference, scene.target));
+  run.files =
+      alter_outputs(run.result, options, job_info(scene.garment, scene.reference, scene.target), runner.at_once());
   std::size_t from = 0;
   for (const StageTiming& timing : runner.timings())
     run.stages.push_back({timing.stage, timing.cpu_s, timing.wall_s, memory.peak(timing.stage, from), timing.reused});

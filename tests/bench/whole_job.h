@@ -23,7 +23,7 @@ struct JobRun {
 };
 
 // Throws what the stages throw.
-JobRun run_job(const test::Scene& scene, const AlterOptions& options, StageCache* cache = nullptr);
+JobRun run_job(const test::Scene& scene, const AlterOptions& options, StageCache* cache = nullptr, int threads = 1);
 
 // What `--outputs` means to benchmarks: "none" (result.json alone), "images" (the four of the fit), "all".
 std::vector<std::string> outputs_named(const std::string& choice);

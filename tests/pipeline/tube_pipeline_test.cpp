@@ -18,8 +18,8 @@ AlterOptions small() {
   return options;
 }
 
-AlterResult alter_tube(const std::string& from, const std::string& to, StageCache* cache = nullptr) {
-  StageRunner runner(cache, nullptr, kAlterStages);
+AlterResult alter_tube(const std::string& from, const std::string& to, StageCache* cache = nullptr, int threads = 1) {
+  StageRunner runner(cache, nullptr, kAlterStages, threads);
   return alter_garment(tube_skirt(), {.name = "builtin:" + from, .bytes = {}}, {.name = "builtin:" + to, .bytes = {}},
                        small(), runner);
 }
@@ -66,13 +66,14 @@ struct MemoryCache : StageCache {
   void put(const std::string& key, const Bytes& value) override { kept.emplace(key, value); }
 };
 
-std::string bytes_of(const AlterResult& result) {
+std::string bytes_of(const AlterResult& result, const std::vector<std::string>& pictures = {}, bool at_once = false) {
   std::string all;
   AlterOptions options = small();
   options.outputs = {"reference_drape.obj", "target_before.obj", "target_pattern.json", "ticket.json"};
+  options.outputs.insert(options.outputs.end(), pictures.begin(), pictures.end());
   const BodyInput body{.name = "builtin:tube-14-100", .bytes = {}};
   const JobInfo info = job_info(tube_skirt(), body, body);
-  for (const OutputFile& file : alter_outputs(result, options, info))
+  for (const OutputFile& file : alter_outputs(result, options, info, at_once))
     all.append(file.name).append(file.bytes.begin(), file.bytes.end());
   return all;
 }
@@ -92,17 +93,39 @@ TEST(TubePipeline, ResumesAfterEveryStageWithTheSameBytes) {
   }
 }
 
-TEST(TubePipeline, ReportsProgressThatNeverFallsAndEndsAtOne) {
-  double last = 0.0;
-  Progress progress;
-  progress.report = [&](std::string_view, double fraction) {
-    EXPECT_GE(fraction, last - 1e-12);
-    last = fraction;
+TEST(TubePipeline, GivesTheSameBytesWithTwoThreadsAsWithOne) {
+  const std::vector<std::string> pictures = {"fit_reference.png", "fit_before.png", "fit_target.png"};
+  MemoryCache one, two;
+  EXPECT_EQ(bytes_of(alter_tube("tube-14-100", "tube-11-125", &two, 2), pictures, true),
+            bytes_of(alter_tube("tube-14-100", "tube-11-125", &one), pictures));
+  EXPECT_EQ(two.kept, one.kept);
+}
+
+TEST(TubePipeline, TellsTheTimesOfStagesInOneOrderWithAnyNumberOfThreads) {
+  const auto stages = [](int threads) {
+    StageRunner runner(nullptr, nullptr, kAlterStages, threads);
+    alter_garment(tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
+                  {.name = "builtin:tube-18-100", .bytes = {}}, small(), runner);
+    std::string names;
+    for (const StageTiming& timing : runner.timings()) names += timing.stage + " ";
+    return names;
   };
-  StageRunner runner(nullptr, &progress, kAlterStages);
-  alter_garment(tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
-                {.name = "builtin:tube-11-100", .bytes = {}}, small(), runner);
-  EXPECT_EQ(last, 1.0);
+  EXPECT_EQ(stages(2), stages(1));
+}
+
+TEST(TubePipeline, ReportsProgressThatNeverFallsAndEndsAtOne) {
+  for (const int threads : {1, 2}) {
+    double last = 0.0;
+    Progress progress;
+    progress.report = [&](std::string_view, double fraction) {
+      EXPECT_GE(fraction, last - 1e-12);
+      last = fraction;
+    };
+    StageRunner runner(nullptr, &progress, kAlterStages, threads);
+    alter_garment(tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
+                  {.name = "builtin:tube-11-100", .bytes = {}}, small(), runner);
+    EXPECT_EQ(last, 1.0);
+  }
 }
 
 TEST(TubePipeline, EndsAtOnceWhenCancelled) {
