@@ -76,14 +76,19 @@ bool BodySlices::middle_closed(double y) const {
   return right >= left;
 }
 
-bool BodySlices::arm_apart(double y, Side side) const {
+std::optional<double> BodySlices::arm_gap(double y, Side side) const {
   const auto trunk = middle(y);
-  if (!trunk) return false;
-  const auto all = pieces(y);
-  return std::any_of(all.begin(), all.end(), [&](const SliceComponent& c) {
-    const bool outside = side == Left ? c.low.x() > trunk->high.x() : c.high.x() < trunk->low.x();
-    return outside && c.hull_girth() > kLimbGirth * height_;
-  });
+  if (!trunk) return std::nullopt;
+  std::optional<double> gap;
+  for (const SliceComponent& c : pieces(y)) {
+    const double apart = side == Left ? c.low.x() - trunk->high.x() : trunk->low.x() - c.high.x();
+    if (apart > 0 && c.hull_girth() > kLimbGirth * height_) gap = std::min(apart, gap.value_or(apart));
+  }
+  return gap;
+}
+
+bool BodySlices::arm_apart(double y, Side side) const {
+  return arm_gap(y, side).has_value();
 }
 
 }  // namespace toile

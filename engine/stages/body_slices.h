@@ -24,6 +24,8 @@ class BodySlices {
   double middle_thickness(double y) const;
   // Whether a piece, however small, lies on the mid-plane, or those of both sides overlap there.
   bool middle_closed(double y) const;
+  // How far an arm is from the trunk, to the side; none where it is no piece of its own.
+  std::optional<double> arm_gap(double y, Side side) const;
   // Whether an arm is a piece of its own at this side.
   bool arm_apart(double y, Side side) const;
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "engine/stages/find_shoulder.h"
+#include "engine/stages/measure_arm.h"
+
 namespace toile {
 namespace {
 
@@ -13,12 +16,16 @@ constexpr double kBustNear = 0.025, kBustFar = 0.09;    // distance from the mid
 constexpr double kBustSide = 0.05;                      // and where there is no foremost point
 constexpr double kBustCrest = 0.0015;                   // the profile must fall back by this under a crest
 constexpr double kBustCap = 0.0001;                     // what lies within this of the crest counts as crest
-constexpr double kBustStep = 0.001;                     // m
+constexpr double kBustStep = 0.001, kGapStep = 0.002;   // m
+// Where a chest has no foremost point, two estimates of its bust level share: under the armpit by a part of the way to
+// the neck, and under the place where arm and trunk would meet if the gap between them went on closing as it does
+// between two widths. Armpits are missing in scans, and gaps differ with build: neither alone is good enough.
+constexpr double kFlatUnderArmpit = -0.225;
+constexpr double kFlatUnderArms = 0.0228, kGapNarrow = 0.03, kGapWide = 0.06, kGapSought = 0.15;
 // Fractions of the way from crotch to armpit:
 constexpr double kWaist = 0.60, kHip = 0.10;
 // Fractions of the way from armpit to the least neck:
 constexpr double kNeckBack = 0.88, kNeckFront = 0.52;
-constexpr double kBustFlat = -0.225;  // where a chest has no foremost point
 // Fractions of the crotch height:
 constexpr double kKnee = 0.61, kAnkle = 0.095;
 
@@ -59,10 +66,11 @@ class Finder {
   void add_limb_points(Side side) {
     const Vec2 out(side == Left ? 1.0 : -1.0, 0.0), front(0.0, 1.0);
     const Skeleton::Arm& arm = s_.arms[side];
-    add("shoulder", side, skin(arm.shoulder + Vec3(0.008 * h_ * out.x(), 0, 0), Vec3::UnitY()));
+    add("shoulder", side, find_shoulder_point(body_, s_, side));
     const Vec3 along = (arm.shoulder - arm.elbow).normalized();
     add("elbow", side, skin(arm.elbow, across(Vec3(0.3 * out.x(), -0.2, -1.0), along)));
-    add("wrist", side, skin(arm.wrist, across(Vec3(0.5 * out.x(), 0.5, 1.0), (arm.elbow - arm.wrist).normalized())));
+    const Vec3 wrist = find_wrist(body_, arm, h_);
+    add("wrist", side, skin(wrist, across(Vec3(0.5 * out.x(), 0.5, 1.0), (arm.elbow - arm.wrist).normalized())));
     const double trunk = levels_.armpit - levels_.crotch;
     add("hip", side, trunk_side(levels_.crotch + kHip * trunk, out));
     add("knee", side, leg_point(kKnee * levels_.crotch, side, front));
@@ -100,12 +108,40 @@ class Finder {
 
   void add_bust_points() {
     const std::optional<double> crest = bust_crest();
-    const double y = crest.value_or(levels_.armpit + kBustFlat * (s_.neck_y - levels_.armpit));
+    const double y = crest.value_or(flat_bust_level());
     for (const Side side : {Left, Right}) {
       const double sign = side == Left ? 1.0 : -1.0;
       const std::optional<Vec3> front = crest ? chest_front(y, sign) : std::nullopt;
       add("bust", side, front ? *front : flat_bust(y, sign));
     }
+  }
+
+  // Highest level under the armpit, mean of both sides, at which the arm is this far from the trunk.
+  std::optional<double> gap_level(double width) const {
+    double sum = 0.0;
+    for (const Side side : {Left, Right}) {
+      double above = levels_.armpit, last = 0.0, y = above;
+      while (last < width && y > levels_.armpit - kGapSought * h_) {
+        above = y, y -= kGapStep;
+        const double gap = slices_.arm_gap(y, side).value_or(0.0);
+        if (gap >= width) sum += 0.5 * (y + (above - y) * (gap - width) / (gap - last));
+        last = gap;
+      }
+      if (last < width) return std::nullopt;
+    }
+    return sum;
+  }
+
+  // The armpit's where arms hang or stand off so that the gap tells nothing.
+  double arms_meet() const {
+    const auto narrow = gap_level(kGapNarrow * h_), wide = gap_level(kGapWide * h_);
+    if (!narrow || !wide) return levels_.armpit;
+    return *narrow + (*narrow - *wide) * kGapNarrow / (kGapWide - kGapNarrow);
+  }
+
+  double flat_bust_level() const {
+    const double by_armpit = levels_.armpit + kFlatUnderArmpit * (s_.neck_y - levels_.armpit);
+    return 0.5 * (by_armpit + arms_meet() - kFlatUnderArms * h_);
   }
 
   Vec3 flat_bust(double y, double sign) const {

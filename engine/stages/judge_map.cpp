@@ -24,6 +24,8 @@ constexpr double kFacing = 0.5;     // cosine
 constexpr double kMasked = 0.3;     // a vertex with more of hand, head or foot is not judged
 constexpr int kScanSamples = 6000;  // target vertices looked at
 constexpr double kSoleQuantile = 0.002;
+constexpr double kFloating = 0.001;     // m
+constexpr double kTurnedUnder = 0.0035;  // of the height: how much of the soles scanners do not see
 
 double quantile(std::vector<double>& values, double fraction) {
   if (values.empty()) return 0.0;
@@ -108,11 +110,16 @@ class Judge {
     report_.stretch_p95 = quantile(logs, 0.95);
   }
 
+  double target_height() const { return target_.surface().vertices.col(1).maxCoeff(); }
+
   void find_floor() {
     std::vector<double> heights;
     for (Eigen::Index v = 0; v < mapped_.rows(); ++v)
       if (both(reference_.weights, v, Foot) > 0.9) heights.push_back(mapped_(v, 1));
-    report_.floor = quantile(heights, kSoleQuantile);
+    const double lowest = target_.surface().vertices.col(1).minCoeff();
+    // A scan that floats stands on the floor of its file. Elsewhere no more is missing than skin that turns under.
+    report_.floor =
+        lowest > kFloating ? 0.0 : std::max(quantile(heights, kSoleQuantile), lowest - kTurnedUnder * target_height());
   }
 
   void warn(std::string text) { report_.warnings.push_back(std::move(text)); }

@@ -7,6 +7,7 @@
 #include "engine/stages/body_slices.h"
 #include "engine/stages/find_landmarks.h"
 #include "engine/stages/measure_arm.h"
+#include "engine/stages/measure_neck.h"
 
 namespace toile {
 namespace {
@@ -16,6 +17,7 @@ constexpr double kLevelStep = 0.002;  // m, between slices when the largest or l
 constexpr double kThighBelow = 0.03;  // m under the crotch
 // Fractions of the height: how far the crotch is sought from the skeleton's.
 constexpr double kCrotchBelow = 0.02, kCrotchAbove = 0.012;
+constexpr double kJointUnder = 0.03;  // the joint of the shoulder, under its point on the skin
 constexpr double kUnderbust = 0.033;  // of the height under the bust points
 // Fractions of the way from crotch to armpit.
 constexpr double kHipHigh = 0.40, kWaistLow = 0.40, kWaistHigh = 0.75, kChestLow = 2.0 / 3.0;
@@ -24,13 +26,22 @@ struct Girth {
   double y = 0.0, length = 0.0;
 };
 
+// Only near the skeleton's crotch: thighs that touch further down are not the trunk.
+double lowest_closed_level(const BodySlices& slices, const Skeleton& skeleton) {
+  const double h = slices.height();
+  double y = skeleton.crotch_y - kCrotchBelow * h;
+  while (y < skeleton.crotch_y + kCrotchAbove * h && !slices.middle_closed(y)) y += kFineStep;
+  return y;
+}
+
 class Tape {
  public:
   Tape(const TriangleMesh& body, const Skeleton& skeleton)
       : body_(body), s_(skeleton), slices_(body, false), h_(slices_.height()) {}
 
   MeasureBodyResult run(const Landmarks& given) {
-    levels_.crotch = crotch();
+    const auto crotch = given.find("crotch");
+    levels_.crotch = crotch == given.end() ? lowest_closed_level(slices_, s_) : crotch->second.y();
     levels_.armpit = armpit();
     result_.landmarks = find_landmarks(body_, s_, slices_, levels_);
     for (const auto& [name, point] : given) result_.landmarks[name] = point;
@@ -43,14 +54,6 @@ class Tape {
  private:
   void set(const char* name, double value) { result_.measurements[name] = value; }
   const Vec3& landmark(const char* name) const { return result_.landmarks.at(name); }
-
-  // Lowest level at which the mid-plane is closed: by the trunk, or by thighs that press on each other right under it.
-  // Only near the skeleton's crotch: thighs that touch further down are not the trunk.
-  double crotch() const {
-    double y = s_.crotch_y - kCrotchBelow * h_;
-    while (y < s_.crotch_y + kCrotchAbove * h_ && !slices_.middle_closed(y)) y += kFineStep;
-    return y;
-  }
 
   // Highest level at which both arms are apart from the trunk.
   double armpit() const {
@@ -83,7 +86,8 @@ class Tape {
     take("waist_girth", levels_.waist, extreme_girth(level(kWaistLow), level(kWaistHigh), -1));
     take("belly_girth", belly, extreme_girth(level(kWaistLow), level(kWaistHigh), 1));
     take("chest_girth", levels_.chest, extreme_girth(level(kChestLow), level(1), 1));
-    take("neck_girth", levels_.neck, extreme_girth(s_.neck_y - 0.005 * h_, s_.neck_y + 0.005 * h_, -1));
+    const NeckGirth neck = measure_neck(body_, s_);
+    take("neck_girth", levels_.neck, {neck.y, neck.length});
     levels_.bust = 0.5 * (landmark("bust_l").y() + landmark("bust_r").y());
     levels_.underbust = levels_.bust - kUnderbust * h_;
     set("bust_girth", slices_.middle_girth(levels_.bust));
@@ -116,11 +120,12 @@ class Tape {
   void measure_arms() {
     double upper = 0.0, wrist = 0.0, length = 0.0;
     for (const Side side : {Left, Right}) {
-      const Skeleton::Arm& arm = s_.arms[side];
-      const ArmGirths girths = measure_arm(body_, arm);
-      upper += 0.5 * girths.upper_arm, wrist += 0.5 * girths.wrist;
       const char* mark = side == Left ? "_l" : "_r";
       const auto point = [&](const char* name) { return result_.landmarks.at(std::string(name) + mark); };
+      Skeleton::Arm arm = s_.arms[side];
+      arm.shoulder = point("shoulder") - Vec3(0, kJointUnder * h_, 0);
+      const ArmGirths girths = measure_arm(body_, arm);
+      upper += 0.5 * girths.upper_arm, wrist += 0.5 * girths.wrist;
       length += 0.5 * ((point("shoulder") - point("elbow")).norm() + (point("elbow") - point("wrist")).norm());
     }
     set("upper_arm_girth", upper);
@@ -137,6 +142,10 @@ class Tape {
 };
 
 }  // namespace
+
+double find_crotch_level(const TriangleMesh& body, const Skeleton& skeleton) {
+  return lowest_closed_level(BodySlices(body, false), skeleton);
+}
 
 MeasureBodyResult measure_body(const TriangleMesh& body, const Skeleton& skeleton, const Landmarks& given) {
   return Tape(body, skeleton).run(given);

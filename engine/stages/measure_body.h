@@ -24,8 +24,11 @@ struct MeasureBodyResult {
   MeasuringLevels levels;
 };
 
-// `given` landmarks win over found ones and move the levels that hang on them (bust points).
+// `given` landmarks win over found ones and move the levels that hang on them (bust points, crotch).
 // Requires the skeleton of this surface (find_skeleton). Throws BodyNotRecognised where a part cannot be sliced.
 MeasureBodyResult measure_body(const TriangleMesh& body, const Skeleton& skeleton, const Landmarks& given = {});
+
+// Lowest level at which the mid-plane is closed: by the trunk, or by thighs that press on each other right under it. m.
+double find_crotch_level(const TriangleMesh& body, const Skeleton& skeleton);
 
 }  // namespace toile

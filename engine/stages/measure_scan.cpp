@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "engine/geometry/closest_point.h"
+#include "engine/geometry/half_edges.h"
 #include "engine/stages/find_skeleton.h"
 #include "engine/stages/make_mannequin.h"
 
@@ -14,10 +16,74 @@ namespace {
 constexpr double kChildHeight = 1.45;                           // m
 constexpr double kLeastMannequin = 0.80, kMostMannequin = 2.2;  // m, well inside what make_mannequin accepts
 
+// Fractions of the height: scans of shared/data that lack the crotch are bridged 2-3 mm per metre too high.
+constexpr double kBridgedHigher = 0.0022, kCrotchReach = 0.005;
+constexpr double kCrotchBack = 0.0, kCrotchFront = 0.04;
+constexpr int kCrotchSamples = 11;
+constexpr double kCutAway = 0.03;
+constexpr double kFacingDown = 0.6;  // cosine
+
 Body mannequin_like(const Body& scan) {
   const double height = scan.surface.vertices.col(1).maxCoeff();
   const Measurements asked = {{"height", std::clamp(height, kLeastMannequin, kMostMannequin)}};
   return make_mannequin(asked, {.figure = height < kChildHeight ? Figure::Child : Figure::Person}).body;
+}
+
+void move_up(MeasureBodyResult& measured, double by) {
+  for (auto& [name, point] : measured.landmarks) point.y() += by;
+  MeasuringLevels& l = measured.levels;
+  for (double* level :
+       {&l.crotch, &l.armpit, &l.chest, &l.bust, &l.underbust, &l.waist, &l.hip, &l.neck, &l.thigh, &l.knee, &l.calf})
+    *level += by;
+}
+
+// Whether less than half of the way along the mid-plane under the crotch is skin of the scan.
+bool crotch_is_bridged(const Vec3& crotch, double height, const TriangleMesh& scan) {
+  const SurfaceTree tree(scan.vertices, scan.triangles);
+  int seen = 0;
+  for (int i = 0; i < kCrotchSamples; ++i) {
+    const double along = kCrotchBack + (kCrotchFront - kCrotchBack) * i / (kCrotchSamples - 1);
+    const Vec3 under = crotch + Vec3(0.0, 0.0, along * height);
+    seen += tree.closest_point_facing(under, -Vec3::UnitY(), kFacingDown, kCrotchReach * height).found() ? 1 : 0;
+  }
+  return 2 * seen < kCrotchSamples;
+}
+
+// Where the scan lacks the crotch the mannequin's bridges it too high, by as much on every body: it is put where it
+// must be.
+void lower_bridged_crotch(Landmarks& known, const TriangleMesh& skin, const Skeleton& skeleton, const Body& scan) {
+  if (known.contains("crotch")) return;
+  const Vec3 found(0.0, find_crotch_level(skin, skeleton), skeleton.pelvis.z());
+  if (crotch_is_bridged(found, skeleton.height, scan.surface))
+    known["crotch"] = found - Vec3(0.0, kBridgedHigher * skeleton.height, 0.0);
+}
+
+// Heights are measured over the soles, wherever the scan's own frame has its floor; points stay in that frame.
+MeasureBodyResult measure_standing(TriangleMesh skin, const Body& scan, double floor, Landmarks known) {
+  const Skeleton seen = find_skeleton(skin).skeleton;
+  lower_bridged_crotch(known, skin, seen, scan);
+  skin.vertices.col(1).array() -= floor;
+  for (auto& [name, point] : known) point.y() -= floor;
+  MeasureBodyResult measured = measure_body(skin, find_skeleton(skin).skeleton, known);
+  move_up(measured, floor);
+  return measured;
+}
+
+bool near_open_edge(const TriangleMesh& scan, const HalfEdges& edges, const Vec3& point, double reach) {
+  for (std::size_t h = 0; h < edges.opposite.size(); ++h)
+    if (edges.opposite[h] < 0 &&
+        (scan.vertices.row(half_edge_start(scan.triangles, static_cast<int>(h))).transpose() - point).norm() < reach)
+      return true;
+  return false;
+}
+
+std::vector<std::string> estimated_measures(const Landmarks& found, const TriangleMesh& scan, double height) {
+  const HalfEdges edges = find_half_edges(scan.triangles);
+  std::vector<std::string> names;
+  if (near_open_edge(scan, edges, found.at("head_top"), kCutAway * height)) names.push_back("height");
+  if (near_open_edge(scan, edges, found.at("crotch"), kCutAway * height))
+    names.insert(names.end(), {"inside_leg_length", "thigh_girth", "thigh_girth_left", "thigh_girth_right"});
+  return names;
 }
 
 }  // namespace
@@ -31,7 +97,9 @@ MeasureScanResult measure_scan(const Body& scan, const Landmarks& given, Progres
   MeasureScanResult result;
   result.registration = registered.report;
   result.skin = {registered.map.mapped, mannequin.surface.triangles};
-  result.measured = measure_body(result.skin, find_skeleton(result.skin).skeleton, given);
+  result.measured = measure_standing(result.skin, scan, registered.report.floor, given);
+  result.estimated =
+      estimated_measures(result.measured.landmarks, scan.surface, registered.map.mapped.col(1).maxCoeff());
   return result;
 }
 

@@ -16,6 +16,9 @@ struct MeasureScanResult {
   MeasureBodyResult measured;
   TriangleMesh skin;  // the mannequin in the shape of the scan: closed, smooth, every point known
   RegistrationReport registration;
+  // Measures that hang on a crown or a crotch that is cut away in the scan, told from the mannequin's: to about 5 mm,
+  // or 15 where a scanner has joined the thighs under it.
+  std::vector<std::string> estimated;
 };
 
 // Requires a normalised scan; it may have holes, and is better off with them than with patches over them. `given`

@@ -38,6 +38,7 @@ Record measure_if_scan(ImportBodyResult& result, const Landmarks& given, Progres
   return how.add("by", "registered_mannequin")
       .add("surface_mean_mm", scan.registration.surface_mean * kMmPerMetre)
       .add("surface_p95_mm", scan.registration.surface_p95 * kMmPerMetre)
+      .add("estimated", scan.estimated)
       .add("warnings", scan.registration.warnings);
 }
 

@@ -34,7 +34,9 @@ int main(int argc, char** argv) {
       {"pictures", {"all a job shows of a drape: GARMENT.json BODY.obj FOLDER", bench_pictures}},
       {"queue", {"what the queue costs a job, in flushes of the disk: [FOLDER]", bench_queue}},
       {"register",
-       {"body maps: time against error over resolutions, growth; [pairs [TARGET] | variants [BODY]]", bench_register}},
+       {"body maps: time against error over resolutions, growth; [pairs [TARGET] | variants [BODY] | measures "
+        "[TARGET...]]",
+        bench_register}},
       {"stages", {"a whole job stage by stage: [SCENE...] [--triangles N] [--outputs none|images|all]", bench_stages}},
       {"transport",
        {"garments carried to other bodies and draped: [GARMENT...] [--body NAME] [--triangles N] [--pictures FOLDER]",

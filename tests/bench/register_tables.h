@@ -10,5 +10,7 @@ namespace toile::bench {
 int bench_register_pairs(const Arguments& arguments);
 // "variants [BODY]": imitated scans of re-posed bodies, three of each.
 int bench_register_variants(const Arguments& arguments);
+// "measures [TARGET | BODY:SEED...]": what is measured on scans, beside the bodies they were made of.
+int bench_register_measures(const Arguments& arguments);
 
 }  // namespace toile::bench

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/stages/measure_scan.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "engine/geometry/clean_mesh.h"
+#include "engine/stages/find_skeleton.h"
 #include "engine/stages/normalise_body.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/shared_data.h"
@@ -12,31 +15,56 @@
 namespace toile {
 namespace {
 
-constexpr double kLarge = 9e-3;    // m, ISO 20685-1 for large girths
-constexpr double kBust = 10e-3;    // m: a flat chest has no bust to tell its height by
-constexpr double kCrotch = 15e-3;  // m: cut away in these scans; it hangs on where the mannequin bridges it
-constexpr double kHeight = 9e-3;   // m: crown and soles are cut away
+// ISO 20685-1: what scanners are held to. Metres.
+constexpr double kSmall = 4e-3, kLarge = 9e-3;
+// The scanner joined this heavy woman's thighs by a web 2 cm under the crotch, and the crotch itself is cut away: how
+// high it is is not in the scan, and what is measured from there follows it.
+constexpr double kWeb = 15e-3;
+
+constexpr const char* kLargeGirths[] = {"bust_girth",  "underbust_girth", "chest_girth",
+                                        "waist_girth", "belly_girth",     "hip_girth"};
+constexpr const char* kFromCrotch[] = {"inside_leg_length", "thigh_girth", "thigh_girth_left", "thigh_girth_right",
+                                       "knee_girth"};
+constexpr double kMergedArmpit = 11e-3;  // scan_b: largest girth right under armpits that are cut away
+
+template <std::size_t N>
+bool among(const char* const (&names)[N], const std::string& name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+double tolerance(const std::string& scan, const std::string& name) {
+  if (scan == "scan_a" && among(kFromCrotch, name)) return kWeb;
+  if (scan == "scan_b" && name == "chest_girth") return kMergedArmpit;
+  return among(kLargeGirths, name) ? kLarge : kSmall;
+}
 
 class SlowMeasureScan : public testing::TestWithParam<const char*> {};
 
-TEST_P(SlowMeasureScan, AgreesWithTheBodyTheScanWasMadeOf) {
+TEST_P(SlowMeasureScan, RepeatsEveryMeasureOfTheBodyTheScanWasMadeOf) {
   TOILE_REQUIRE_SHARED_DATA();
-  const auto truth = test::load_body_sidecar(test::load_scan_sidecar(GetParam()).source_body).measurements;
+  const TriangleMesh source = test::load_shared_body(test::load_scan_sidecar(GetParam()).source_body).surface;
+  const Measurements truth = measure_body(source, find_skeleton(source).skeleton).measurements;
   TriangleMesh raw = test::load_shared_scan(GetParam());
   clean_mesh(raw);
   Body scan;
   scan.surface = normalise_body(raw).surface;
   const MeasureScanResult result = measure_scan(scan);
   EXPECT_LT(result.registration.surface_mean, 2e-3);
-  const auto expect = [&](const char* ours, const char* theirs, double tolerance) {
-    EXPECT_NEAR(result.measured.measurements.at(ours), truth.at(theirs), tolerance) << ours;
-  };
-  expect("waist_girth", "waist", kLarge);
-  expect("hip_girth", "hips", kLarge);
-  expect("bust_girth", "bust_at_bust_points", kBust);
-  expect("thigh_girth_left", "thigh_left", kCrotch);
-  expect("height", "height", kHeight);
-  expect("inside_leg_length", "inseam", kCrotch);
+  for (const auto& [name, value] : truth) {
+    EXPECT_GT(value, 0.05) << name;
+    EXPECT_NEAR(result.measured.measurements.at(name), value, tolerance(GetParam(), name)) << name;
+  }
+}
+
+TEST(SlowMeasureScanOf, ScansTellWhichMeasuresAreEstimates) {
+  TOILE_REQUIRE_SHARED_DATA();
+  Body scan;
+  scan.surface = normalise_body(test::load_shared_scan("scan_d")).surface;
+  const std::vector<std::string> cut = measure_scan(scan).estimated;
+  EXPECT_EQ(cut.front(), "height");
+  EXPECT_NE(std::find(cut.begin(), cut.end(), "inside_leg_length"), cut.end());
+  scan.surface = test::load_shared_body("ggg_mean_female").surface;
+  EXPECT_TRUE(measure_scan(scan).estimated.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Scans, SlowMeasureScan, testing::Values("scan_a", "scan_b", "scan_c", "scan_d"));
