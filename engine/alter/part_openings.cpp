@@ -13,6 +13,7 @@ namespace {
 
 using Loop = std::vector<Vec2>;
 
+constexpr double kCrumb = 0.8;       // of the least width: a strip of just that is none, however its width is measured
 constexpr double kOnOutline = 1e-6;  // m
 constexpr double kSamePoint = 1e-6;  // m
 constexpr double kShared = 2e-5;     // m: borders nearer than this run along each other
@@ -117,7 +118,7 @@ std::vector<Loop> strips_of(const Loop& opening, const PartOpeningOptions& optio
   if (options.l_shapes) return {opening};
   std::vector<Loop> strips = split_at_reflex_corners(opening);
   for (std::size_t i = 0; i < strips.size() && strips.size() > 1;)
-    if (2.0 * roomiest_point(strips[i]).clearance >= options.least_strip || !join(strips, i))
+    if (2.0 * roomiest_point(strips[i]).clearance >= kCrumb * options.least_strip || !join(strips, i))
       ++i;
     else
       i = 0;

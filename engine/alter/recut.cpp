@@ -9,9 +9,7 @@
 namespace toile {
 namespace {
 
-constexpr double kBends = 1.05;       // times the least width, so that strips along hollow sides have it too
-constexpr double kStraight = 0.9995;  // chord of a side to its length: above it no bend takes width
-constexpr double kSamePoint = 1e-6;   // m, along a side: cloth and outline share one point there
+constexpr double kSamePoint = 1e-6;  // m, along a side: cloth and outline share one point there
 
 // Points of every wanted side, shared by the outline and by the cloth that hangs on it: equal places, equal numbers.
 class SharedPoints {
@@ -139,10 +137,6 @@ bool too_narrow(const OpenRun& run, double room, const RecutOptions& options) {
   return run.largest() > std::max(room, options.least_width) && run.largest() < options.least_strip;
 }
 
-bool is_straight(const SideCurve& side) {
-  return (side.points().back() - side.points().front()).norm() > kStraight * side.length();
-}
-
 // What lies within `depth` of a wanted side, in pieces.
 Loops band_along(const SideCurve& side, double depth) {
   Loops band;
@@ -185,7 +179,7 @@ void cut_back_narrow_sides(const Sheet& sheet, const RecutOptions& options, Recu
     for (const OpenRun& run : open_runs(all_along(sheet, side), options.least_width)) {
       if (!too_narrow(run, options.side_room[static_cast<std::size_t>(side)], options)) continue;
       const SideCurve& curve = sheet.wanted_sides[static_cast<std::size_t>(side)];
-      const double depth = (is_straight(curve) ? 1.0 : kBends) * options.least_strip;
+      const double depth = options.least_strip;
       for (auto& part : run.from_start&& run.to_end ? band_along(curve, depth) : deeper_run(curve, run, depth))
         bands.push_back(std::move(part));
     }

@@ -17,6 +17,9 @@ int main(int argc, char** argv) {
        {"alter shared garments for other bodies: [GARMENT:BODY...] [--drape] [--greedy] [--triangles N] [--pictures "
         "FOLDER]",
         bench_alter}},
+      {"worn",
+       {"garments worn by MakeHuman bodies altered for others: [GARMENT...] [--triangles N] [--pictures FOLDER]",
+        bench_worn}},
       {"alteration", {"draw an alteration: GARMENT.json ACROSS ALONG FOLDER", bench_alteration}},
       {"examples",
        {"drafted examples altered between five mannequins: [GARMENT...] [--triangles N] [--sentences]",

@@ -17,9 +17,9 @@ BodyInput shared_wearer(const std::string& name) {
   return {.name = name, .bytes = test::read_file(test::shared_data("bodies/" + name + ".obj"))};
 }
 
-DerivedGarment derive(const std::string& garment, const std::string& body) {
+DerivedGarment derive(const std::string& garment, const std::string& body, int triangles = kTriangles) {
   AlterOptions options;
-  options.triangles = kTriangles;
+  options.triangles = triangles;
   StageRunner runner(nullptr, nullptr, kDeriveStages);
   const std::string file = "garments/" + garment + "_specification.json";
   return derive_garment({garment, test::read_file(test::shared_data(file))},
@@ -60,6 +60,29 @@ TEST_P(AlterGarments, WithFewOperationsAlikeOnBothSidesAndNoClothAstray) {
 INSTANTIATE_TEST_SUITE_P(Slow, AlterGarments,
                          testing::Values(std::pair{"m_tshirt", "ggg_large_male"},
                                          std::pair{"skirt_pencil", "ggg_small_female"}));
+
+std::size_t tears_of(const AlterPatternResult& result, TearKind kind) {
+  std::size_t count = 0;
+  for (const PanelAlteration& panel : result.panels)
+    for (const PanelTearing* pass : {&panel.insertion_pass, &panel.removal_pass})
+      for (const MadeTear& made : pass->tears) count += made.tear.kind == kind;
+  return count;
+}
+
+// A skirt whose waistband sides alone do not fit within three of them: a cut is cheaper until seams are preferred.
+TEST(SlowAlterGarments, AHigherPreferenceForSeamsCutsLess) {
+  TOILE_REQUIRE_SHARED_DATA();
+  const DerivedGarment derived = derive("skirt_pencil", "ggg_mean_female", 4000);
+  AlterPatternOptions options = alter_options_of({});
+  const auto altered = [&](double gamma) {
+    options.seam_preference = gamma;
+    return alter_pattern(derived.reference.pattern, derived.reference.mesh, derived.derived.mesh.rest, options);
+  };
+  const AlterPatternResult cutting = altered(1.5), sewing = altered(3.0);
+  EXPECT_GE(tears_of(cutting, TearKind::Edge), 1u);
+  EXPECT_EQ(tears_of(sewing, TearKind::Edge), 0u);
+  EXPECT_GE(tears_of(sewing, TearKind::Release), tears_of(cutting, TearKind::Release));
+}
 
 }  // namespace
 }  // namespace toile

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// worn [GARMENT...] [--triangles N] [--stages FOLDER] [--pictures FOLDER] [--sentences]: garments worn by MakeHuman
+// bodies (made by deriving the shared garments for them first), altered for others: leggings from child to adult and
+// back, a dress on five sizes and heights, skirt, sweater, trousers and T-shirt for a smaller, a larger and a scanned
+// person. Prints fit before and after; pictures: the garment where it was worn, on the other person as it is and as
+// altered, all to one scale of stretch, and what is cut; one per pair and contact_sheet.png.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/io/garmentcode_json.h"
+#include "engine/render/png.h"
+#include "engine/stages/render_views.h"
+#include "tests/bench/alter_pairs.h"
+#include "tests/bench/derive.h"
+#include "tests/support/shared_data.h"
+
+namespace toile::bench {
+namespace {
+
+struct WornPair {
+  const char *garment, *wearer, *body;
+};
+
+constexpr WornPair kPairs[] = {
+    {"leggings_tight", "mh_child_8y", "mh_female_average"},
+    {"leggings_tight", "mh_female_average", "mh_child_8y"},
+    {"dress_sleeveless", "mh_female_average", "mh_female_thin_short"},
+    {"dress_sleeveless", "mh_female_average", "mh_female_thin_tall"},
+    {"dress_sleeveless", "mh_female_average", "mh_female_athletic"},
+    {"dress_sleeveless", "mh_female_average", "mh_female_heavy_short"},
+    {"dress_sleeveless", "mh_female_average", "mh_female_heavy_tall"},
+    {"skirt_pencil", "mh_female_average", "mh_female_thin_short"},
+    {"skirt_pencil", "mh_female_average", "mh_female_heavy_tall"},
+    {"skirt_pencil", "mh_female_average", "scan_b"},
+    {"sweater_loose_hood", "mh_male_average", "mh_female_thin_short"},
+    {"sweater_loose_hood", "mh_male_average", "mh_male_old_heavy"},
+    {"sweater_loose_hood", "mh_male_average", "scan_b"},
+    {"pants_straight", "mh_male_average", "mh_female_thin_short"},
+    {"pants_straight", "mh_male_average", "mh_male_old_heavy"},
+    {"pants_straight", "mh_male_average", "scan_b"},
+    {"tshirt_fitted", "mh_female_average", "mh_female_thin_short"},
+    {"tshirt_fitted", "mh_female_average", "mh_female_heavy_tall"},
+    {"tshirt_fitted", "mh_female_average", "scan_b"},
+};
+
+constexpr int kViewHeight = 420, kPatternWidth = 520, kColumns = 2;
+
+struct Request {
+  std::vector<std::string> garments;
+  AlterOptions job;
+  std::string stages, pictures;
+  bool sentences = false;
+};
+
+Request parse(const std::vector<std::string>& words) {
+  Request request;
+  request.job.triangles = 4000;
+  request.job.outputs = {"fit_after.png"};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool more = i + 1 < words.size();
+    if (words[i] == "--triangles" && more)
+      request.job.triangles = std::atoi(words[++i].c_str());
+    else if (words[i] == "--stages" && more)
+      request.stages = words[++i];
+    else if (words[i] == "--pictures" && more)
+      request.pictures = words[++i];
+    else if (words[i] == "--sentences")
+      request.sentences = true;
+    else
+      request.garments.push_back(words[i]);
+  }
+  return request;
+}
+
+void write(const std::string& folder, const std::string& name, const Image& image) {
+  std::filesystem::create_directories(folder);
+  const Bytes png = write_png(image);
+  std::ofstream(folder + "/" + name + ".png", std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+}
+
+Image view_of(const Body& body, const PatternMesh& mesh, const Drape& drape, const FittingMap& fit,
+              const std::string& title) {
+  ViewOptions options;
+  options.views = {View::Front, View::Back};
+  options.view_height = kViewHeight;
+  options.max_view_width = kViewHeight;
+  options.title = title;
+  return draw_views(&body.surface, &mesh, &drape, &fit, options);
+}
+
+Image picture_of_pair(const WornPair& pair, const AlterResult& r) {
+  const DrapedGarment& worn = r.reference;
+  std::vector<Image> cells = {
+      view_of(worn.body, worn.mesh, worn.drape.drape, worn.fit, pair.wearer),
+      view_of(r.target_body, worn.mesh, r.before.drape, r.fit_before, pair.body + std::string(" before")),
+  };
+  if (r.after && r.after->problem.empty())
+    cells.push_back(
+        view_of(r.target_body, r.after->mesh, r.after->drape.drape, r.after->fit, pair.body + std::string(" after")));
+  cells.push_back(picture_of({pair.garment, pair.body}, r.altered, kPatternWidth));
+  int width = 0, height = 0, x = 0;
+  for (const Image& cell : cells) width += cell.width, height = std::max(height, cell.height);
+  Image row(width, height, {255, 255, 255});
+  for (const Image& cell : cells) {
+    paste(row, cell, x, 0);
+    x += cell.width;
+  }
+  return row;
+}
+
+std::vector<std::string> words_of(const WornPair& pair, const AlterResult& r) {
+  const AlterOutcome outcome = outcome_of(r.altered);
+  const auto percent = [](double share) { return fixed(100.0 * share, 2); };
+  const bool sewn = r.after && r.after->problem.empty();
+  double inserted = 0.0, removed = 0.0;
+  for (const PanelAlteration& panel : r.altered.panels) {
+    for (const AlteredRegion& region : panel.insertions) inserted += region.area;
+    for (const AlteredRegion& region : panel.removals) removed += region.area;
+  }
+  return {pair.garment,
+          pair.wearer,
+          pair.body,
+          percent(compare_fits(r.reference.mesh, r.reference.fit, r.fit_before).whole.rms_stretch),
+          percent(r.derived.rms_stretch_error),
+          sewn ? percent(compare_fits(r.after->mesh, r.after->reference, r.after->fit).whole.rms_stretch) : "-",
+          sewn ? std::string(rest_name(r.after->drape.quality.rest)) : "-",
+          sewn ? std::to_string(r.after->drape.quality.nodes_inside) : "-",
+          std::to_string(outcome.operations),
+          fixed(1e4 * inserted, 0),
+          fixed(1e4 * removed, 0),
+          percent(outcome.balance),
+          std::to_string(outcome.flags)};
+}
+
+// The garment as drafted for its own body, made to fit the wearer.
+GarmentInput worn_garment(const WornPair& pair, const AlterOptions& job, StageCache* stages) {
+  const DerivedGarment derived = derive_pair(pair.garment, pair.wearer, job, stages);
+  const std::string text = write_garmentcode(derived.derived.drawn.pattern);
+  return {std::string(pair.garment) + ".json", Bytes(text.begin(), text.end())};
+}
+
+}  // namespace
+
+int bench_worn(const Arguments& arguments) {
+  if (!test::has_shared_data()) {
+    std::fprintf(stderr, "toile-bench worn needs ../shared/data\n");
+    return 2;
+  }
+  const Request request = parse(arguments.words);
+  const auto stages = stage_store(request.stages);
+  Table table({"garment", "worn by", "for", "before %", "ideal %", "altered %", "rest", "inside", "operations",
+               "in cm2", "out cm2", "balance %", "flags"});
+  std::vector<Image> sheet;
+  int failed = 0;
+  for (const WornPair& pair : kPairs) {
+    const auto& wanted = request.garments;
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), pair.garment) == wanted.end()) continue;
+    try {
+      StageRunner runner(stages.get(), nullptr, kAlterStages);
+      const AlterResult r = alter_garment(worn_garment(pair, request.job, stages.get()), shared_wearer(pair.wearer),
+                                          shared_wearer(pair.body), request.job, runner);
+      table.add(words_of(pair, r));
+      if (request.sentences) {
+        std::printf("%s from %s to %s\n", pair.garment, pair.wearer, pair.body);
+        for (const TicketOperation& operation : r.altered.ticket.operations)
+          std::printf("  %s\n", operation.sentence.c_str());
+        for (const auto* flags : {&r.altered.flags, &r.altered.sewn.flags})
+          for (const std::string& flag : *flags) std::printf("  flag: %s\n", flag.c_str());
+      }
+      if (!request.pictures.empty()) {
+        sheet.push_back(picture_of_pair(pair, r));
+        write(request.pictures, std::string(pair.garment) + "_" + pair.wearer + "_" + pair.body, sheet.back());
+      }
+    } catch (const Error& error) {
+      ++failed;
+      std::printf("%s from %s to %s: %s\n", pair.garment, pair.wearer, pair.body, error.message.c_str());
+    }
+    std::fflush(stdout);
+  }
+  table.print(arguments.csv);
+  if (!sheet.empty()) write(request.pictures, "contact_sheet", tile(sheet, kColumns));
+  return failed == 0 ? 0 : 1;
+}
+
+}  // namespace toile::bench
