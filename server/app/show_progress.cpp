@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdio>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -34,23 +35,26 @@ std::string_view words_of(std::string_view stage) {
 
 }  // namespace
 
+// Two stages may run at the same time and report in turn: each begins a line once, the last line tells how far all is.
 void show_progress(std::string_view stage, double fraction) {
-  static std::string last_stage;
+  static std::set<std::string, std::less<>> begun;
+  static std::string words;
   static int last_percent = -1;
   const int percent = static_cast<int>(fraction * 100);
-  const bool new_stage = stage != last_stage;
-  if (!new_stage && percent == last_percent) return;
-  const std::string_view words = words_of(stage);
-  if (isatty(STDERR_FILENO)) {
-    if (new_stage && !last_stage.empty()) std::fputc('\n', stderr);
-    const std::string filled(static_cast<std::size_t>(percent) * 30 / 100, '#');
-    std::fprintf(stderr, "\r%-24.*s [%-30s] %3d %%", static_cast<int>(words.size()), words.data(), filled.c_str(),
-                 percent);
-    if (percent >= 100) std::fputc('\n', stderr);
-  } else if (new_stage) {
-    std::fprintf(stderr, "%.*s\n", static_cast<int>(words.size()), words.data());
+  const bool first = begun.find(stage) == begun.end();
+  if (!first && percent == last_percent) return;
+  if (first) {
+    if (isatty(STDERR_FILENO) && !begun.empty() && last_percent < 100) std::fputc('\n', stderr);
+    begun.emplace(stage);
+    words = words_of(stage);
   }
-  last_stage = percent >= 100 && isatty(STDERR_FILENO) ? std::string() : std::string(stage);
+  if (isatty(STDERR_FILENO)) {
+    const std::string filled(static_cast<std::size_t>(percent) * 30 / 100, '#');
+    std::fprintf(stderr, "\r%-24s [%-30s] %3d %%", words.c_str(), filled.c_str(), percent);
+    if (percent >= 100) std::fputc('\n', stderr);
+  } else if (first) {
+    std::fprintf(stderr, "%s\n", words.c_str());
+  }
   last_percent = percent;
 }
 
