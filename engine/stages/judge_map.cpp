@@ -10,6 +10,7 @@
 #include "engine/geometry/edge_graph.h"
 #include "engine/geometry/surface_operators.h"
 #include "engine/stages/body_bones.h"
+#include "engine/stages/visible_skin.h"
 
 namespace toile {
 namespace {
@@ -24,7 +25,7 @@ constexpr double kFacing = 0.5;     // cosine
 constexpr double kMasked = 0.3;     // a vertex with more of hand, head or foot is not judged
 constexpr int kScanSamples = 6000;  // target vertices looked at
 constexpr double kSoleQuantile = 0.002;
-constexpr double kFloating = 0.001;     // m
+constexpr double kFloating = 0.001;      // m
 constexpr double kTurnedUnder = 0.0035;  // of the height: how much of the soles scanners do not see
 
 double quantile(std::vector<double>& values, double fraction) {
@@ -81,12 +82,19 @@ class Judge {
     report_.facing_share = all > 0 ? facing / all : 0.0;
   }
 
+  // Skin that cannot be seen from outside (a modelled mouth) is nothing to lie on: left out where it would decide.
   void measure_scan() {
+    measure_scan(Eigen::VectorXd::Ones(target_.surface().vertex_count()));
+    if (report_.scan_p95 > kScanWarned) measure_scan(visible_skin(target_.surface()));
+  }
+
+  void measure_scan(const Eigen::VectorXd& visible) {
     const SurfaceTree tree(mapped_, reference_.surface.triangles);
     const Points3& points = target_.surface().vertices;
     const auto step = std::max<Eigen::Index>(1, points.rows() / kScanSamples);
     std::vector<double> all, without_hands;
     for (Eigen::Index v = 0; v < points.rows(); v += step) {
+      if (visible[v] == 0) continue;
       const SurfacePoint c = tree.closest_point(points.row(v));
       all.push_back(c.distance());
       if (both(reference_.weights, reference_.surface.triangles(c.triangle, 0), Hand) < kMasked)
