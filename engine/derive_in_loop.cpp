@@ -36,6 +36,10 @@ DerivedPattern derive_and_drape(const Scene& scene, const Drape& shape, const Po
   return pass;
 }
 
+bool at_rest(const DerivedPattern& pass) {
+  return pass.drape.quality.rest != Rest::NotAtRest;
+}
+
 }  // namespace
 
 DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& reference_mesh,
@@ -46,13 +50,16 @@ DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& referen
   const Scene scene{pattern, reference_mesh, reference_fit, target_body, mirrors};
   DerivedPattern best = derive_and_drape(scene, transported, nullptr, derive_options, drape_options, progress);
   std::vector<double> errors = {best.rms_stretch_error};
-  while (static_cast<int>(errors.size()) < options.max_passes && best.rms_stretch_error > options.good_enough) {
+  while (static_cast<int>(errors.size()) < options.max_passes &&
+         (!at_rest(best) || best.rms_stretch_error > options.good_enough)) {
     DerivedPattern next =
         derive_and_drape(scene, best.drape.drape, &best.derivation.rest, derive_options, drape_options, progress);
     errors.push_back(next.rms_stretch_error);
-    const bool worth_another = next.rms_stretch_error < best.rms_stretch_error - options.least_gain;
-    if (next.rms_stretch_error < best.rms_stretch_error) best = std::move(next);
-    if (!worth_another) break;
+    const bool gained = next.rms_stretch_error < best.rms_stretch_error - options.least_gain;
+    // Rest is worth as much error as a further pass.
+    const double worth = options.least_gain * (static_cast<int>(at_rest(next)) - static_cast<int>(at_rest(best)));
+    if (next.rms_stretch_error < best.rms_stretch_error + worth) best = std::move(next);
+    if (!gained && at_rest(best)) break;
   }
   best.pass_errors = std::move(errors);
   return best;
