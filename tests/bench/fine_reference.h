@@ -32,10 +32,11 @@ struct Answer {
 Answer answer(const SceneBodies& scene, const Accuracy& accuracy);
 
 struct AnswerError {
-  double stretch = 0.0;   // rms of weft and warp of the reference drape, dimensionless
-  double position = 0.0;  // rms of the reference drape's nodes, m
-  double pattern = 0.0;   // rms of the derived outlines, each panel moved onto the other without deforming it, m
-  double hem = 0.0;       // difference of the heights of the lowest node, m
+  double stretch = 0.0;            // rms of weft and warp of the reference drape, dimensionless
+  double recovered_stretch = 0.0;  // the same of the stretch recovered from neighbouring triangles
+  double position = 0.0;           // rms of the reference drape's nodes, m
+  double pattern = 0.0;  // rms of the derived outlines, each panel moved onto the other without deforming it, m
+  double hem = 0.0;      // difference of the heights of the lowest node, m
 };
 AnswerError compare(const Answer& fine, const Answer& coarse);
 

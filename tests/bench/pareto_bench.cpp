@@ -130,12 +130,13 @@ int bench_pareto(const Arguments& arguments) {
       std::printf("%s: %s\n", scene.c_str(), error.what());
     }
   }
-  Table table({"scene", "triangles", "solver", "CPU s", "stretch %", "position mm", "hem mm", "pattern mm", "front"});
+  Table table({"scene", "triangles", "solver", "CPU s", "stretch %", "recovered %", "position mm", "hem mm",
+               "pattern mm", "front"});
   for (const Point& point : points)
     table.add({point.scene, std::to_string(point.triangles), name_of(point.accuracy), fixed(point.cpu_s, 2),
-               fixed(100 * point.error.stretch, 2), fixed(point.error.position * kMmPerMetre, 2),
-               fixed(point.error.hem * kMmPerMetre, 2), fixed(point.error.pattern * kMmPerMetre, 2),
-               on_front(point, points) ? "*" : ""});
+               fixed(100 * point.error.stretch, 2), fixed(100 * point.error.recovered_stretch, 2),
+               fixed(point.error.position * kMmPerMetre, 2), fixed(point.error.hem * kMmPerMetre, 2),
+               fixed(point.error.pattern * kMmPerMetre, 2), on_front(point, points) ? "*" : ""});
   table.print(arguments.csv);
   if (!arguments.svg.empty()) write_plot(plot_of(points), arguments.svg);
   return 0;
