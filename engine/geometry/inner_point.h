@@ -17,7 +17,7 @@ double distance_to_polygon(const std::vector<Vec2>& polygon, const Vec2& point);
 // The point farthest from the outline, to about 2 % of the polygon's extent.
 InnerPoint roomiest_point(const std::vector<Vec2>& polygon);
 
-// Width and length, width <= length, of the narrowest rectangle round a polygon, of those along its edges.
+// Width and length, width <= length, of the narrowest rectangle round a polygon.
 Vec2 least_box(const std::vector<Vec2>& polygon);
 
 // The part of the line through `point` (inside) along unit `direction` that lies in the polygon: from .. to, with
