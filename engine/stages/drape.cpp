@@ -25,6 +25,12 @@ constexpr double kUsualTension = 1000;  // N/m, of the cloth that the default co
 
 constexpr int kPairs = 5;  // of the minimiser: 4 to 20 need as many iterations on garments, and fewer fit the cache
 
+constexpr double kTangledShare = 0.1;  // of piercings in the triangles: worn and transported garments have under 0.01
+
+// Contact of a garment that is far too small is made stiffer until no node is that deep in the body, m.
+constexpr double kDeep = 0.0008, kFirmer = 4;
+constexpr int kMostFirmings = 2;
+
 constexpr double kPinShare = 50;  // stiffness of a pin over that of contact: 1 N/m of tension moves it by 0.2 mm
 
 void check_options(const DrapeOptions& o) {
@@ -84,7 +90,10 @@ class Draper {
     if (!result_.diagnostics.bodice) hold_waist(start);
     if (options_.pin_openings)
       for (const std::vector<int>& line : free_lines(pattern_, mesh_)) pin(line, start);
-    finish(start);
+    if (!options_.keep_drape && tangled(start))
+      finish(smoothed(start, SewingOptions()));
+    else
+      finish(start);
     for (const DrapeFinding& finding : result_.diagnostics.findings)
       if (finding.name == "not_finite") throw Error(ErrorCode::DrapeFailed, "garment", finding.message);
     return result_;
@@ -107,6 +116,7 @@ class Draper {
   void attempt_from_flat(int rung) {
     report(progress_, "sew", 0);
     result_.diagnostics.rung = rung;
+    result_.diagnostics.iterations = result_.diagnostics.evaluations = 0;
     SewingOptions sewing;
     if (rung == 1) sewing.stages.insert(sewing.stages.begin(), kFirmStage);
     if (rung == 2) sewing.growth = kGrowth;
@@ -115,11 +125,23 @@ class Draper {
     holds_.clear();
     pins_.clear();
     if (!result_.diagnostics.bodice) hold_waist(start);
+    finish(smoothed(start, sewing));
+  }
+
+  // Without gravity, friction and contact between layers.
+  Points3 smoothed(const Points3& start, const SewingOptions& options) {
     DrapeEnergy energy(cloth_, nullptr, 0.0);
     energy.holds = holds_;
-    const SewingResult sewn = sew(energy, *field_, thickness_, start, sewing, progress_);
+    const SewingResult sewn = sew(energy, *field_, thickness_, start, options, progress_);
     result_.diagnostics.sewing_iterations = sewn.iterations;
-    finish(sewn.nodes);
+    return sewn.nodes;
+  }
+
+  // Crossing itself all over: contact between layers would hold such knots instead of undoing them.
+  bool tangled(const Points3& start) const {
+    ClothContact layers(cloth_, mesh_, ClothContactOptions{});
+    layers.refresh(start);
+    return layers.piercings() > kTangledShare * cloth_.triangle_count;
   }
 
   Points3 arranged(double lift) {
@@ -174,9 +196,19 @@ class Draper {
 
   void relax_from(const Points3& start) {
     report(progress_, "drape", 0);
+    Points3 from = start;
+    double stiffness = contact_stiffness();
+    for (int firmings = 0; relax_on(stiffness, from) && firmings < kMostFirmings; ++firmings) {
+      from = result_.drape.nodes;
+      stiffness *= kFirmer;
+    }
+  }
+
+  // True: the cloth pulls so hard that nodes lie deep in the body.
+  bool relax_on(double stiffness, const Points3& start) {
     ContactOptions contact_options;
     contact_options.thickness = thickness_;
-    contact_options.stiffness = contact_stiffness();
+    contact_options.stiffness = stiffness;
     contact_options.friction = options_.friction;
     Contact contact(cloth_, *field_, contact_options);
     DrapeEnergy energy(cloth_, &contact, options_.gravity);
@@ -187,8 +219,8 @@ class Draper {
       layers.emplace(cloth_, mesh_, ClothContactOptions{});
       energy.cloth_contact = &*layers;
     }
-    if (options_.solver == SolverKind::Pbd) return average_targets(energy, start);
-    if (options_.solver == SolverKind::Newton && options_.friction == 0) return refine(energy, start);
+    if (options_.solver == SolverKind::Pbd) return average_targets(energy, start), false;
+    if (options_.solver == SolverKind::Newton && options_.friction == 0) return refine(energy, start), false;
     RelaxOptions relax_options;
     relax_options.iterations = options_.iterations;
     relax_options.stop_residual = options_.stop_residual;
@@ -198,8 +230,8 @@ class Draper {
     const RelaxResult relaxed = relax(energy, start, relax_options, progress_);
     result_.drape.nodes = relaxed.nodes;
     DrapeDiagnostics& d = result_.diagnostics;
-    d.iterations = relaxed.iterations;
-    d.evaluations = relaxed.evaluations;
+    d.iterations += relaxed.iterations;
+    d.evaluations += relaxed.evaluations;
     d.energy = relaxed.energy;
     d.stalled = relaxed.stalled;
     result_.quality.residual = relaxed.residual;
@@ -208,7 +240,14 @@ class Draper {
     result_.quality.rest = at_rest                                ? Rest::Converged
                            : relaxed.converged || relaxed.settled ? Rest::Settled
                                                                   : Rest::NotAtRest;
-    if (options_.solver == SolverKind::Newton) refine(energy, relaxed.nodes);
+    if (options_.solver == SolverKind::Newton) return refine(energy, relaxed.nodes), false;
+    return presses_deep(contact.distances());
+  }
+
+  // Pinned nodes lie where they are wanted.
+  bool presses_deep(Eigen::VectorXd distances) const {
+    for (const Pin& pin : pins_) distances[pin.node] = 0;
+    return distances.minCoeff() < -kDeep;
   }
 
   // To the very minimum, contacts and friction as they stand in `energy`.

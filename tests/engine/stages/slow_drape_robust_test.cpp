@@ -9,6 +9,7 @@
 #include "engine/stages/arrange_panels.h"
 #include "engine/stages/find_skeleton.h"
 #include "engine/stages/import_body.h"
+#include "tests/support/dice.h"
 #include "tests/support/dressed.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/symmetric_body.h"
@@ -51,6 +52,24 @@ TEST_P(SlowDisturbedDrape, GarmentTurnedInsideOutComesToRest) {
   Drape inside_out = drape_of(dressed_).drape;
   inside_out.nodes.col(0) *= -1;
   expect_settled(drape_from(dressed_.pattern, dressed_.mesh, dressed_.body, inside_out, dressed_.options, nullptr));
+}
+
+TEST_P(SlowDisturbedDrape, NoiseOfFiveCentimetresSettlesWithoutKnots) {
+  Drape noisy = drape_of(dressed_).drape;
+  test::Dice dice(7);
+  for (Eigen::Index i = 0; i < noisy.nodes.size(); ++i) noisy.nodes.data()[i] += dice.between(-0.05, 0.05);
+  const DrapeResult result =
+      drape_from(dressed_.pattern, dressed_.mesh, dressed_.body, noisy, dressed_.options, nullptr);
+  expect_settled(result);
+  EXPECT_LE(result.quality.crossing_pairs, 2);
+}
+
+// Worn, then suddenly cut from a smaller size.
+TEST_P(SlowDisturbedDrape, GarmentAThirdTooSmallSettlesOutsideTheBody) {
+  const Drape worn = drape_of(dressed_).drape;
+  PatternMesh small = dressed_.mesh;
+  small.rest *= 0.7;
+  expect_settled(drape_from(dressed_.pattern, small, dressed_.body, worn, dressed_.options, nullptr));
 }
 
 TEST_P(SlowDisturbedDrape, ClothTenTimesStifferOrSofterSettles) {
