@@ -27,8 +27,9 @@ constexpr int kPairs = 5;  // of the minimiser: 4 to 20 need as many iterations 
 
 constexpr double kTangledShare = 0.1;  // of piercings in the triangles: worn and transported garments have under 0.01
 
-// Contact of a garment that is far too small is made stiffer until no node is that deep in the body, m.
-constexpr double kDeep = 0.0008, kFirmer = 4;
+// Contact of a garment that is far too small is made stiffer until no node is that deep in the body, m. Firmer contact
+// takes several times the iterations: single nodes a millimetre deep, as of leggings two sizes too small, are let be.
+constexpr double kDeep = 0.002, kFirmer = 4;
 constexpr int kMostFirmings = 2;
 
 constexpr double kPinShare = 50;  // stiffness of a pin over that of contact: 1 N/m of tension moves it by 0.2 mm
