@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/convex_hull.h"
+
 namespace toile {
 
 bool inside_polygon(const std::vector<Vec2>& polygon, const Vec2& point) {
@@ -83,32 +85,6 @@ std::array<double, 2> chord_through(const std::vector<Vec2>& polygon, const Vec2
   if (behind == -1e300 || ahead == 1e300) return {0.0, 0.0};
   return {behind, ahead};
 }
-
-namespace {
-
-std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
-  std::vector<Vec2> hull;
-  const auto add_chain = [&hull](auto begin, auto end) {
-    const std::size_t first = hull.size();
-    for (auto p = begin; p != end; ++p) {
-      while (hull.size() >= first + 2) {
-        const Vec2 along = hull.back() - hull[hull.size() - 2], to = *p - hull.back();
-        if (along.x() * to.y() - along.y() * to.x() > 0.0) break;
-        hull.pop_back();
-      }
-      hull.push_back(*p);
-    }
-    hull.pop_back();  // the next chain begins there
-  };
-  if (points.size() < 3) return points;
-  add_chain(points.begin(), points.end());
-  add_chain(points.rbegin(), points.rend());
-  return hull;
-}
-
-}  // namespace
 
 Vec2 least_box(const std::vector<Vec2>& outline) {
   const std::vector<Vec2> polygon = convex_hull(outline);
