@@ -4,6 +4,7 @@
 
 #include "engine/pipeline.h"
 #include "engine/stage_options.h"
+#include "tests/support/count_tears.h"
 #include "tests/support/shared_data.h"
 
 namespace toile {
@@ -61,14 +62,6 @@ INSTANTIATE_TEST_SUITE_P(Slow, AlterGarments,
                          testing::Values(std::pair{"m_tshirt", "ggg_large_male"},
                                          std::pair{"skirt_pencil", "ggg_small_female"}));
 
-std::size_t tears_of(const AlterPatternResult& result, TearKind kind) {
-  std::size_t count = 0;
-  for (const PanelAlteration& panel : result.panels)
-    for (const PanelTearing* pass : {&panel.insertion_pass, &panel.removal_pass})
-      for (const MadeTear& made : pass->tears) count += made.tear.kind == kind;
-  return count;
-}
-
 // A skirt whose waistband sides alone do not fit within three of them: a cut is cheaper until seams are preferred.
 TEST(SlowAlterGarments, AHigherPreferenceForSeamsCutsLess) {
   TOILE_REQUIRE_SHARED_DATA();
@@ -79,9 +72,9 @@ TEST(SlowAlterGarments, AHigherPreferenceForSeamsCutsLess) {
     return alter_pattern(derived.reference.pattern, derived.reference.mesh, derived.derived.mesh.rest, options);
   };
   const AlterPatternResult cutting = altered(1.5), sewing = altered(3.0);
-  EXPECT_GE(tears_of(cutting, TearKind::Edge), 1u);
-  EXPECT_EQ(tears_of(sewing, TearKind::Edge), 0u);
-  EXPECT_GE(tears_of(sewing, TearKind::Release), tears_of(cutting, TearKind::Release));
+  EXPECT_GE(test::tears_of(cutting, TearKind::Edge), 1u);
+  EXPECT_EQ(test::tears_of(sewing, TearKind::Edge), 0u);
+  EXPECT_GE(test::tears_of(sewing, TearKind::Release), test::tears_of(cutting, TearKind::Release));
 }
 
 }  // namespace

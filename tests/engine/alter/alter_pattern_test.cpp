@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/engine/alter/altered_grid.h"
+#include "tests/support/count_tears.h"
 
 namespace toile {
 namespace {
@@ -112,24 +113,16 @@ GridGarment on_the_mid_plane(GridGarment garment) {
   return garment;
 }
 
-std::size_t tears_of(const AlterPatternResult& result, TearKind kind) {
-  std::size_t count = 0;
-  for (const PanelAlteration& panel : result.panels)
-    for (const PanelTearing* pass : {&panel.insertion_pass, &panel.removal_pass})
-      for (const MadeTear& made : pass->tears) count += made.tear.kind == kind;
-  return count;
-}
-
 TEST(AlterPattern, LetsASideGoRatherThanCut) {
   const AlterPatternResult result = alter(sheet(), scaled(1.2, 1));
-  EXPECT_EQ(tears_of(result, TearKind::Edge), 0u);
-  EXPECT_EQ(tears_of(result, TearKind::Release), 1u);
+  EXPECT_EQ(test::tears_of(result, TearKind::Edge), 0u);
+  EXPECT_EQ(test::tears_of(result, TearKind::Release), 1u);
 }
 
 TEST(AlterPattern, CutsWhereBothSidesAreLocked) {
   const AlterPatternResult result = alter(with_locked_sides(sheet(), {1, 3}), scaled(1.2, 1));
-  EXPECT_EQ(tears_of(result, TearKind::Release), 0u);
-  EXPECT_EQ(tears_of(result, TearKind::Edge), 1u);
+  EXPECT_EQ(test::tears_of(result, TearKind::Release), 0u);
+  EXPECT_EQ(test::tears_of(result, TearKind::Edge), 1u);
   expect_areas(result, {480, 0}, 1);
 }
 
@@ -137,7 +130,7 @@ TEST(AlterPattern, ThetaZeroForbidsCuts) {
   AlterPatternOptions options;
   options.max_tears_per_side = 0;
   const AlterPatternResult result = alter(with_locked_sides(sheet(), {1, 3}), scaled(1.2, 1), options);
-  EXPECT_EQ(tears_of(result, TearKind::Edge), 0u);
+  EXPECT_EQ(test::tears_of(result, TearKind::Edge), 0u);
   EXPECT_FALSE(result.flags.empty());
 }
 
@@ -145,7 +138,7 @@ TEST(AlterPattern, CutsKeepOutOfAPocketAndTakeAnotherPlaceIfThetaGivesIt) {
   GridGarment garment = with_locked_sides(sheet(), {1, 3});
   garment.pattern.panels[0].keep_outs = {{{{0.16, 0.2}, {0.24, 0.2}, {0.24, 0.3}, {0.16, 0.3}}, "pocket"}};
   AlterPatternOptions options;
-  EXPECT_EQ(tears_of(alter(garment, scaled(1.2, 1), options), TearKind::Edge), 0u);
+  EXPECT_EQ(test::tears_of(alter(garment, scaled(1.2, 1), options), TearKind::Edge), 0u);
   options.max_tears_per_side = 2;
   const AlterPatternResult result = alter(garment, scaled(1.2, 1), options);
   expect_areas(result, {480, 0}, 1);
@@ -211,9 +204,9 @@ TEST(AlterPattern, NoCutOpensLessThanTheLeastStrip) {
   const GridGarment garment = with_locked_sides(sheet(), {1, 3});
   AlterPatternOptions options;  // 20 mm are asked for
   options.least_strip = 0.03;
-  EXPECT_EQ(tears_of(alter(garment, scaled(1.05, 1), options), TearKind::Edge), 0u);
+  EXPECT_EQ(test::tears_of(alter(garment, scaled(1.05, 1), options), TearKind::Edge), 0u);
   options.least_strip = 0.015;
-  EXPECT_EQ(tears_of(alter(garment, scaled(1.05, 1), options), TearKind::Edge), 1u);
+  EXPECT_EQ(test::tears_of(alter(garment, scaled(1.05, 1), options), TearKind::Edge), 1u);
 }
 
 TEST(AlterPattern, AStripAtASeamHasTheLeastWidthUnlessTheAllowanceGivesWhatIsAsked) {
@@ -245,7 +238,7 @@ TEST(AlterPattern, CutsAlongMeshEdgesReachTheSameAreas) {
   options.mesh_edge_cuts = true;
   const GridGarment garment = with_locked_sides(sheet(), {1, 3});
   const AlterPatternResult result = alter(garment, scaled(1.2, 1), options);
-  EXPECT_EQ(tears_of(result, TearKind::Edge), 1u);
+  EXPECT_EQ(test::tears_of(result, TearKind::Edge), 1u);
   EXPECT_NEAR(result.inserted_area * kPerCm2, 480, 10);
 }
 

@@ -102,12 +102,16 @@ GridGarment all_locked() {
   return garment;
 }
 
-TEST(SewAltered, CutsAPanelThatNoTearBringsNearAnewOutOfItsOwnCloth) {
-  const GridGarment garment = all_locked();
+// To a target so wide and 0.7 as long.
+AlterPatternResult alter_without_tears(const GridGarment& garment, double width) {
   AlterPatternOptions options;
   options.max_tears_per_side = 0;
-  const AlterPatternResult result =
-      alter_pattern(garment.pattern, garment.mesh, garment.mapped(scaled(0.6, 0.7)), options);
+  return alter_pattern(garment.pattern, garment.mesh, garment.mapped(scaled(width, 0.7)), options);
+}
+
+TEST(SewAltered, CutsAPanelThatNoTearBringsNearAnewOutOfItsOwnCloth) {
+  const GridGarment garment = all_locked();
+  const AlterPatternResult result = alter_without_tears(garment, 0.6);
   expect_sound(result.sewn);
   EXPECT_TRUE(result.flags.empty());
   ASSERT_EQ(result.sewn.pieces.size(), 1u);
@@ -124,11 +128,7 @@ TEST(SewAltered, CutsAPanelThatNoTearBringsNearAnewOutOfItsOwnCloth) {
 }
 
 TEST(SewAltered, AsksForNewClothWhereThePanelsOwnIsTooSmall) {
-  const GridGarment garment = all_locked();
-  AlterPatternOptions options;
-  options.max_tears_per_side = 0;
-  const AlterPatternResult result =
-      alter_pattern(garment.pattern, garment.mesh, garment.mapped(scaled(1.3, 0.7)), options);
+  const AlterPatternResult result = alter_without_tears(all_locked(), 1.3);
   expect_sound(result.sewn);
   ASSERT_EQ(result.flags.size(), 1u);
   EXPECT_NE(result.flags[0].find("new cloth"), std::string::npos);
