@@ -6,6 +6,7 @@
 
 #include "engine/geometry/fit_curve.h"
 #include "engine/geometry/part_of_curve.h"
+#include "engine/geometry/polygon_boolean.h"
 #include "engine/geometry/self_crossing.h"
 
 namespace toile {
@@ -20,6 +21,7 @@ constexpr double kPolyline = 5e-5;    // m: of the polyline where no Bézier fol
 constexpr double kFlat = 2e-5;        // m: of the chords an outline is tested by
 constexpr double kLeastChord = 2e-5;  // m between the ends of an edge: less is no edge
 constexpr double kTouching = 2e-7;    // m: an outline this near to itself could not be read back
+constexpr double kLeastArea = 2e-5;   // m^2: half as much could not be read back
 constexpr double kOtherLength =
     2e-3;  // m an edge may differ from its chain, and a tenth: corners are snapped to places
 
@@ -115,7 +117,7 @@ EdgeCurve curve_through(const std::vector<Vec2>& points) {
   return polyline_through(points);
 }
 
-// Whether the edges make an outline that keeps clear of itself, each about as long as its chain.
+// Whether the edges make an outline that encloses cloth and keeps clear of itself, each about as long as its chain.
 bool can_be_cut(const PieceEdges& edges) {
   std::vector<Vec2> outline;
   for (std::size_t k = 0; k < edges.corners.size(); ++k) {
@@ -125,7 +127,7 @@ bool can_be_cut(const PieceEdges& edges) {
     const std::vector<Vec2> points = flatten_curve(curve, kFlat);
     outline.insert(outline.end(), points.begin(), points.end() - 1);
   }
-  return !find_self_crossing(outline, kTouching);
+  return signed_area(outline) >= kLeastArea && !find_self_crossing(outline, kTouching);
 }
 
 class EdgeDrawer {

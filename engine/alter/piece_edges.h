@@ -11,7 +11,7 @@ struct PieceEdges {
   std::vector<EdgeCurve> curves;  // of chain k, counter-clockwise
   std::vector<double> lengths;    // of chain k before a curve was drawn through it
   std::vector<int> of_edge;       // edge of the original panel whose curve it is a part of, or -1
-  bool sound = true;              // the outline neither crosses nor touches itself, no edge is without length
+  bool sound = true;              // the outline encloses cloth and keeps clear of itself, no edge is without length
 };
 
 // `chains`: those of the piece, in order. `original`: the panel it was cut from, or null for new cloth.

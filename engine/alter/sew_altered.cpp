@@ -188,7 +188,7 @@ void Sewing::draw_pieces() {
   }
 }
 
-// Narrow pieces can touch themselves once they are drawn: their panel is cut anew, and where that is no cure either,
+// Small and narrow pieces can be nothing, or touch themselves, once they are drawn: their panel is cut anew, and where that is no cure either,
 // nothing is sewn.
 bool Sewing::all_sound() {
   bool sound = true;
@@ -196,7 +196,7 @@ bool Sewing::all_sound() {
     if (drawn.edges.sound) continue;
     sound = false;
     const int p = drawn.border.panel;
-    const std::string problem = "the outline of a piece touches itself";
+    const std::string problem = "the outline of a piece encloses nothing or touches itself";
     if (recut_.emplace(p, CutAnew{problem, std::nullopt}).second) continue;
     sewn_.flags.push_back("panel " + pattern_.panels[static_cast<std::size_t>(p)].name + " cannot be sewn: " + problem);
   }

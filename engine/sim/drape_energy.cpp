@@ -17,6 +17,7 @@ double DrapeEnergy::evaluate(const Points3& nodes, Points3& gradient) {
   energy += bending(nodes, gradient) + gravity(nodes, gradient) + ties(nodes, gradient);
   if (contact_) energy += contact_->energy_gradient(nodes, gradient);
   if (cloth_contact) energy += cloth_contact->energy_gradient(nodes, gradient);
+  if (mirror) symmetrise(*mirror, gradient);
   return energy;
 }
 

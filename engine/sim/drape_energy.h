@@ -5,6 +5,7 @@
 
 #include "engine/sim/cloth_contact.h"
 #include "engine/sim/contact.h"
+#include "engine/sim/node_mirror.h"
 
 namespace toile {
 
@@ -30,6 +31,7 @@ class DrapeEnergy {
   std::vector<Hold> holds;
   std::vector<Pin> pins;
   ClothContact* cloth_contact = nullptr;  // must outlive the energy; null: cloth passes through cloth
+  const NodeMirror* mirror = nullptr;     // must outlive the energy; not null: sought among symmetric positions alone
 
   // Energy at `nodes` (#N x 3); `gradient` is overwritten, N.
   double evaluate(const Points3& nodes, Points3& gradient);

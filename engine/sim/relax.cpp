@@ -57,10 +57,12 @@ class Relaxation {
     QuasiNewton minimiser(energy_.cloth().node_count, options_.quasi_newton);
     const QuasiNewton::Energy evaluate = [this](const Points3& x, Points3& g) { return energy_.evaluate(x, g); };
     if (energy_.contact()) freeze_at_start(start);
-    if (ClothContact* self = energy_.cloth_contact) {
-      self->refresh(start);
-      minimiser.set_limit([self](const Points3& from, Points3& to) { self->limit(from, to); });
-    }
+    if (energy_.cloth_contact) energy_.cloth_contact->refresh(start);
+    if (energy_.cloth_contact || energy_.mirror)
+      minimiser.set_limit([this](const Points3& from, Points3& to) {
+        if (energy_.cloth_contact) energy_.cloth_contact->limit(from, to);
+        if (energy_.mirror) symmetrise(*energy_.mirror, to);
+      });
     minimiser.start(start, evaluate);
     watched_ = watched_means(start);
     while (result_.iterations < options_.iterations && !done()) {

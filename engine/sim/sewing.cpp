@@ -48,6 +48,7 @@ class SewingSolver {
     right_ = -gradient_ + ((z_ - u_ - x_).array().colwise() * weight_.array()).matrix();
     solver_.solve(right_, solution_);
     x_ += solution_;
+    if (energy_.mirror) symmetrise(*energy_.mirror, x_);
     for (Eigen::Index i = 0; i < x_.rows(); ++i) {
       const Vec3 q = relaxation * x_.row(i) + (1 - relaxation) * z_.row(i);
       const Vec3 pushed = push_out(q + u_.row(i).transpose(), hint_[static_cast<std::size_t>(i)]);

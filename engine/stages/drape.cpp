@@ -11,6 +11,7 @@
 #include "engine/sim/relax.h"
 #include "engine/sim/sewing.h"
 #include "engine/stages/arrange_panels.h"
+#include "engine/stages/find_node_mirror.h"
 #include "engine/stages/find_skeleton.h"
 
 namespace toile {
@@ -82,12 +83,13 @@ class Draper {
     }
   }
 
-  DrapeResult from_start(const Points3& start) {
+  DrapeResult from_start(Points3 start) {
     Points3 vertices(mesh_.vertex_count(), 3);
     for (int v = 0; v < mesh_.vertex_count(); ++v)
       vertices.row(v) = start.row(mesh_.node_of_vertex[static_cast<std::size_t>(v)]);
     levels_are_own_ = true;
     prepare(vertices);
+    if (!options_.keep_drape) make_symmetric(start);
     if (!result_.diagnostics.bodice) hold_waist(start);
     if (options_.pin_openings)
       for (const std::vector<int>& line : free_lines(pattern_, mesh_)) pin(line, start);
@@ -126,13 +128,45 @@ class Draper {
     holds_.clear();
     pins_.clear();
     if (!result_.diagnostics.bodice) hold_waist(start);
-    finish(smoothed(start, sewing));
+    find_mirror(start);
+    Points3 sewn = smoothed(start, sewing);
+    if (mirror_ && !part_sides(*mirror_, sewn)) {
+      mirror_.reset();
+      sewn = smoothed(start, sewing);
+    }
+    finish(sewn);
+  }
+
+  // Where all is the same on both sides, the drape is sought among symmetric ones.
+  void find_mirror(const Points3& start) {
+    mirror_ = find_node_mirror(pattern_, mesh_, cloth_, body_.surface.vertices, start);
+    if (mirror_ && !pinned_alike(*mirror_)) mirror_.reset();
+  }
+
+  void make_symmetric(Points3& start) {
+    find_mirror(start);
+    if (!mirror_) return;
+    Points3 symmetric = start;
+    symmetrise(*mirror_, symmetric);
+    if (part_sides(*mirror_, symmetric))
+      start = symmetric;
+    else
+      mirror_.reset();
+  }
+
+  bool pinned_alike(const NodeMirror& mirror) const {
+    const std::vector<int> nodes = pinned_nodes();
+    return std::all_of(nodes.begin(), nodes.end(), [&](int n) {
+      return std::find(nodes.begin(), nodes.end(), mirror.image[static_cast<std::size_t>(n)]) != nodes.end();
+    });
   }
 
   // Without gravity, friction and contact between layers.
-  Points3 smoothed(const Points3& start, const SewingOptions& options) {
+  Points3 smoothed(Points3 start, const SewingOptions& options) {
+    if (mirror_) symmetrise(*mirror_, start);
     DrapeEnergy energy(cloth_, nullptr, 0.0);
     energy.holds = holds_;
+    energy.mirror = mirror_ ? &*mirror_ : nullptr;
     const SewingResult sewn = sew(energy, *field_, thickness_, start, options, progress_);
     result_.diagnostics.sewing_iterations = sewn.iterations;
     return sewn.nodes;
@@ -169,17 +203,17 @@ class Draper {
       pins_.push_back({n, start.row(n), kPinShare * options_.contact_stiffness * cloth_.node_area[n]});
   }
 
-  void pin_as_the_pattern_says(const Points3& start) {
-    for (const SeamSide& side : pattern_.pins) {
-      std::vector<int> nodes;
+  // Of the pattern's own pins.
+  std::vector<int> pinned_nodes() const {
+    std::vector<int> nodes;
+    for (const SeamSide& side : pattern_.pins)
       for (int v : mesh_.edge_vertices[static_cast<std::size_t>(side.panel.value)][static_cast<std::size_t>(side.edge)])
         nodes.push_back(mesh_.node_of_vertex[static_cast<std::size_t>(v)]);
-      pin(nodes, start);
-    }
+    return nodes;
   }
 
   void finish(const Points3& start) {
-    pin_as_the_pattern_says(start);
+    pin(pinned_nodes(), start);
     if (options_.keep_drape)
       result_.drape.nodes = start;
     else
@@ -215,6 +249,7 @@ class Draper {
     DrapeEnergy energy(cloth_, &contact, options_.gravity);
     energy.holds = holds_;
     energy.pins = pins_;
+    energy.mirror = mirror_ ? &*mirror_ : nullptr;
     std::optional<ClothContact> layers;
     if (options_.self_contact != SelfContact::Off) {
       layers.emplace(cloth_, mesh_, ClothContactOptions{});
@@ -299,7 +334,8 @@ class Draper {
   std::vector<int> waist_;
   std::vector<Hold> holds_;
   std::vector<Pin> pins_;
-  bool levels_are_own_ = false;  // the garment is judged where it hangs on this body, not where it was placed
+  std::optional<NodeMirror> mirror_;  // where body and garment are the same on both sides
+  bool levels_are_own_ = false;       // the garment is judged where it hangs on this body, not where it was placed
   DrapeResult result_;
 };
 

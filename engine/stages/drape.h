@@ -4,6 +4,7 @@
 // Unknown: the position of every garment node. Energy: membrane + bending + gravity + contact + lagged friction.
 // From flat: arrange the panels so that every limb lies inside its tube, weld, sew without gravity, then relax.
 // From a given start (a transported or stored drape): relax only.
+// Where body, pattern and start are the same on the left and the right, so is the drape.
 // Source: design/sewing.md; [Eggler2024, Sec. 7].  SI units.
 #pragma once
 

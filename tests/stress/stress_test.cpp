@@ -58,6 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fixture{"patchwork", 184, "a sliver became a target panel too small to be read back"},
                     Fixture{"patchwork", 26, "curves drawn through the pieces' borders crossed each other"},
                     Fixture{"patchwork", 3385, "a narrow piece touched itself once it was drawn"},
+                    Fixture{"patchwork", 3506, "a piece smaller than a panel may be"},
                     Fixture{"cut", 20, "two corners of a piece fell into one: an edge of no length"},
                     Fixture{"cut", 1012, "a piece had a corner kilometres away"}),
     [](const auto& fixture) { return fixture.param.kind + std::to_string(fixture.param.seed); });
