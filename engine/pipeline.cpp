@@ -15,7 +15,7 @@ Keyed<Pattern> take_in(const GarmentInput& garment, StageRunner& runner) {
 }
 
 Keyed<Body> take_in(const BodyInput& body, StageRunner& runner) {
-  return runner.run("import_body", 5, input_key(body), [&] { return read_body(body); });
+  return runner.run("import_body", 6, input_key(body), [&] { return read_body(body); });
 }
 
 Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>& pattern, const Keyed<Body>& wearer,
@@ -26,7 +26,7 @@ Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>&
     if (auto given = read_garment_mesh(garment)) return std::move(*given);
     return mesh_panels(pattern.value, mesh_options, runner.progress());
   });
-  const auto worn = runner.run("drape", 9, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
+  const auto worn = runner.run("drape", 10, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
     const auto given = read_garment_drape(garment, wearer.value);
     if (!given) return drape(pattern.value, mesh.value, wearer.value, drape_options, runner.progress());
     DrapeOptions from_given = drape_options;
@@ -64,13 +64,13 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
         return std::pair(std::move(taken_in), take_in(reference_body, part));
       },
       [&](StageRunner& part) {
-        return part.run("import_target_body", 4, input_key(target_body), [&] { return read_target_body(target_body); });
+        return part.run("import_target_body", 5, input_key(target_body), [&] { return read_target_body(target_body); });
       });
   Body target = imported.value.body;
   auto [reference, found] = runner.run_both(
       [&](StageRunner& part) { return drape_on(garment, original.first, original.second, options, part); },
       [&](StageRunner& part) {
-        return part.run("register_bodies", 7, key_of(input_key(reference_body), imported.key), [&] {
+        return part.run("register_bodies", 8, key_of(input_key(reference_body), imported.key), [&] {
           const Landmarks given = given_landmarks(target_body, target.normalised_from_file);
           return register_bodies(original.second.value, imported.value.seen(), {.target_landmarks = given},
                                  part.progress());
@@ -79,18 +79,18 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   const auto& [pattern, mesh, wearer, worn, fit] = reference.value;
   RegisterBodiesResult registered = found.value;
   if (imported.value.patch_triangles > 0) stand_on_soles(target, registered);
-  const auto transported = runner.run("transport_garment", 3, key_of(reference.key, found.key), [&] {
+  const auto transported = runner.run("transport_garment", 4, key_of(reference.key, found.key), [&] {
     return transport_garment(mesh, worn.drape, wearer, target, registered.map, {}, runner.progress());
   });
   const auto plane = mirror_plane_of(options, pattern);
   auto [before, derived] = runner.run_both(
       [&](StageRunner& part) {
-        return part.run("drape_before", 8, key_of(transported.key, drape_options), [&] {
+        return part.run("drape_before", 9, key_of(transported.key, drape_options), [&] {
           return drape_from(pattern, mesh, target, transported.value.drape, drape_options, part.progress());
         });
       },
       [&](StageRunner& part) {
-        return part.run("derive_pattern", 12, key_of(transported.key, derive_options, loop_options, plane), [&] {
+        return part.run("derive_pattern", 13, key_of(transported.key, derive_options, loop_options, plane), [&] {
           const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
           return derive_in_loop(pattern, mesh, fit, target, transported.value.drape, mirrors, derive_options,
                                 drape_options, loop_options, part.progress());
@@ -117,7 +117,7 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
     return {std::move(ideal.value), altered.value, {}};
   }
   const DrapeOptions drape_options = drape_options_of(options);
-  const auto after = runner.run("drape_altered", 7, key_of(altered.key, ideal.key, drape_options), [&] {
+  const auto after = runner.run("drape_altered", 8, key_of(altered.key, ideal.key, drape_options), [&] {
     return drape_altered(altered.value.sewn, mesh, fit, ideal.value.derived, ideal.value.target_body, drape_options,
                          runner.progress());
   });

@@ -8,12 +8,13 @@
 namespace toile {
 namespace {
 
-constexpr int kLeafSize = 4;
 constexpr int kStackSize = 256;
 // Widening of the boxes relative to the largest coordinate: covers rounding a query point to float (6e-8 relative)
 // and the subtraction after it. Without it a query could skip the box that holds its answer.
 constexpr float kBoxSlack = 1e-6F;
 constexpr float kDistanceSlack = 1.0F - 1e-5F;
+constexpr double kLaneSlack = 1.0 + 1e-12;  // of rounding between the formulas for one triangle and for four
+constexpr double kTiny = 1e-300;            // in place of the square of a length that is zero
 
 SurfacePoint point_on_edge(const Vec3& p, const Vec3& a, const Vec3& b, int edge) {
   const Vec3 ab = b - a;
@@ -126,6 +127,8 @@ struct SurfaceTree::Builder {
     std::int32_t triangle;
   };
   SurfaceTree& tree;
+  const Points3& vertices;
+  const Triangles& triangles;
   std::vector<Item> items;
   float slack = 0;
 
@@ -154,8 +157,20 @@ struct SurfaceTree::Builder {
   }
 
   std::int32_t add_leaf(Iterator begin, Iterator end) const {
-    const auto first = static_cast<std::int32_t>(begin - items.cbegin());
-    return ~(first * 8 + static_cast<std::int32_t>(end - begin));
+    const auto leaf = static_cast<std::int32_t>(tree.leaves_.size());
+    Leaf& lanes = tree.leaves_.emplace_back();
+    for (int k = 0; k < kLeafSize; ++k) {
+      const std::int32_t f = (k < end - begin ? begin + k : begin)->triangle;
+      for (int d = 0; d < 3; ++d) {
+        const auto axis = static_cast<std::size_t>(d);
+        lanes.a[axis][k] = vertices(triangles(f, 0), d);
+        lanes.b[axis][k] = vertices(triangles(f, 1), d);
+        lanes.c[axis][k] = vertices(triangles(f, 2), d);
+      }
+      if (k < end - begin) tree.slot_of_triangle_[static_cast<std::size_t>(f)] = leaf * kLeafSize + k;
+      tree.triangle_of_slot_.push_back(f);
+    }
+    return ~(leaf * 8 + static_cast<std::int32_t>(end - begin));
   }
 
   std::int32_t add_node(Iterator begin, Iterator end) {
@@ -180,7 +195,7 @@ struct SurfaceTree::Builder {
 SurfaceTree::SurfaceTree(const Points3& vertices, const Triangles& triangles) {
   const auto count = static_cast<std::size_t>(triangles.rows());
   if (count == 0) return;
-  Builder builder{*this, {}, kBoxSlack * static_cast<float>(vertices.cwiseAbs().maxCoeff())};
+  Builder builder{*this, vertices, triangles, {}, kBoxSlack * static_cast<float>(vertices.cwiseAbs().maxCoeff())};
   builder.items.reserve(count);
   const auto corner = [&](std::size_t f, int k) -> Vec3 {
     return vertices.row(triangles(static_cast<Eigen::Index>(f), k)).transpose();
@@ -191,32 +206,50 @@ SurfaceTree::SurfaceTree(const Points3& vertices, const Triangles& triangles) {
         {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), (a + b + c) / 3, static_cast<std::int32_t>(f)});
   }
   nodes_.reserve(count / 3 + 4);
-  builder.add_node(builder.items.begin(), builder.items.end());
   slot_of_triangle_.resize(count);
-  for (const auto& item : builder.items) {
-    const auto f = static_cast<std::size_t>(item.triangle);
-    slot_of_triangle_[f] = static_cast<std::int32_t>(corners_.size());
-    triangle_of_slot_.push_back(item.triangle);
-    corners_.push_back({corner(f, 0), corner(f, 1), corner(f, 2)});
-  }
+  builder.add_node(builder.items.begin(), builder.items.end());
 }
 
-template <class Accept>
-SurfacePoint SurfaceTree::search(const Vec3& p, double within, int start, Accept accept) const {
-  SurfacePoint best;
-  best.distance_squared = within * within;
-  if (nodes_.empty()) return best;
-  const auto try_slot = [&](std::int32_t slot) {
-    const Corners& t = corners_[static_cast<std::size_t>(slot)];
-    if (!accept(t)) return;
-    const SurfacePoint candidate = closest_point_on_triangle(p, t.a, t.b, t.c);
-    if (candidate.distance_squared < best.distance_squared) {
-      best = candidate;
-      best.triangle = triangle_of_slot_[static_cast<std::size_t>(slot)];
-    }
-  };
-  if (start >= 0 && start < triangle_count()) try_slot(slot_of_triangle_[static_cast<std::size_t>(start)]);
+SurfaceTree::Corners SurfaceTree::corners(std::int32_t slot) const {
+  const Leaf& leaf = leaves_[static_cast<std::size_t>(slot / kLeafSize)];
+  const int k = slot % kLeafSize;
+  return {Vec3(leaf.a[0][k], leaf.a[1][k], leaf.a[2][k]), Vec3(leaf.b[0][k], leaf.b[1][k], leaf.b[2][k]),
+          Vec3(leaf.c[0][k], leaf.c[1][k], leaf.c[2][k])};
+}
 
+// Of the four triangles to p: the least to the three sides, or to the plane where its foot lies inside.
+SurfaceTree::Lanes SurfaceTree::Leaf::distances_squared(const Vec3& p) const {
+  using Vector = std::array<Lanes, 3>;
+  const auto dot = [](const Vector& l, const Vector& r) -> Lanes { return l[0] * r[0] + l[1] * r[1] + l[2] * r[2]; };
+  const auto minus = [](const Vector& l, const Vector& r) -> Vector { return {l[0] - r[0], l[1] - r[1], l[2] - r[2]}; };
+  const auto to_side = [&](const Vector& from, const Vector& side, const Lanes& length_squared) -> Lanes {
+    const Lanes t = (dot(side, from) / length_squared.max(kTiny)).max(0.0).min(1.0);
+    const Vector off = {from[0] - t * side[0], from[1] - t * side[1], from[2] - t * side[2]};
+    return dot(off, off);
+  };
+  const Vector at = {Lanes::Constant(p[0]), Lanes::Constant(p[1]), Lanes::Constant(p[2])};
+  const Vector ab = minus(b, a), ac = minus(c, a), bc = minus(c, b), ap = minus(at, a);
+  const Lanes bb = dot(ab, ab), cc = dot(ac, ac), bc_squared = dot(bc, bc), along = dot(ab, ac);
+  const Lanes sides = to_side(ap, ab, bb).min(to_side(ap, ac, cc)).min(to_side(minus(at, b), bc, bc_squared));
+  const Lanes d1 = dot(ab, ap), d2 = dot(ac, ap), determinant = bb * cc - along * along;
+  const Lanes scale = 1.0 / determinant.max(kTiny), v = (cc * d1 - along * d2) * scale,
+              w = (bb * d2 - along * d1) * scale;
+  const Vector off = {ap[0] - v * ab[0] - w * ac[0], ap[1] - v * ab[1] - w * ac[1], ap[2] - v * ab[2] - w * ac[2]};
+  const auto inside = determinant > kTiny && v >= 0.0 && w >= 0.0 && v + w <= 1.0;
+  return inside.select(dot(off, off).min(sides), sides);
+}
+
+void SurfaceTree::try_slot(const Vec3& p, std::int32_t slot, SurfacePoint& best) const {
+  const Corners t = corners(slot);
+  const SurfacePoint candidate = closest_point_on_triangle(p, t.a, t.b, t.c);
+  if (candidate.distance_squared >= best.distance_squared) return;
+  best = candidate;
+  best.triangle = triangle_of_slot_[static_cast<std::size_t>(slot)];
+}
+
+// `try_leaf(leaf, count, best)` of every leaf that may hold something nearer than `best`, near ones first.
+template <class TryLeaf>
+void SurfaceTree::search(const Vec3& p, SurfacePoint& best, TryLeaf try_leaf) const {
   const float q[3] = {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
   struct Entry {
     float bound;
@@ -229,21 +262,23 @@ SurfacePoint SurfaceTree::search(const Vec3& p, double within, int start, Accept
     const Entry entry = stack[static_cast<std::size_t>(--top)];
     if (static_cast<double>(entry.bound) >= best.distance_squared) continue;
     if (entry.child < 0) {
-      const std::int32_t leaf = ~entry.child;
-      for (std::int32_t slot = leaf / 8; slot < leaf / 8 + leaf % 8; ++slot) try_slot(slot);
+      try_leaf(~entry.child / 8, ~entry.child % 8);
       continue;
     }
     const Node& node = nodes_[static_cast<std::size_t>(entry.child)];
-    std::array<float, 4> bound{};
-    for (std::size_t d = 0; d < 3; ++d)
-      for (std::size_t k = 0; k < 4; ++k) {
-        const float gap = std::max(std::max(node.low[d][k] - q[d], q[d] - node.high[d][k]), 0.0F);
-        bound[k] += gap * gap;
-      }
+    using Boxes = Eigen::Array<float, 4, 1>;
+    Boxes squares = Boxes::Zero();
+    for (std::size_t d = 0; d < 3; ++d) {
+      const Eigen::Map<const Boxes> low(node.low[d].data()), high(node.high[d].data());
+      const Boxes gap = (low - q[d]).max(q[d] - high).max(0.0F);
+      squares += gap * gap;
+    }
+    std::array<float, 4> bound;
+    Eigen::Map<Boxes>(bound.data()) = squares * kDistanceSlack;
     // Pushed from far to near: the nearest child is taken first. Insertion sort of at most four entries.
     const int first = top;
     for (std::size_t k = 0; k < 4; ++k) {
-      const float b = bound[k] * kDistanceSlack;
+      const float b = bound[k];
       if (node.child[k] == -1 || static_cast<double>(b) >= best.distance_squared) continue;
       int at = top++;
       for (; at > first && stack[static_cast<std::size_t>(at - 1)].bound < b; --at)
@@ -251,20 +286,39 @@ SurfacePoint SurfaceTree::search(const Vec3& p, double within, int start, Accept
       stack[static_cast<std::size_t>(at)] = {b, node.child[k]};
     }
   }
-  return best;
 }
 
 SurfacePoint SurfaceTree::closest_point(const Vec3& p, double within, int start) const {
-  return search(p, within, start, [](const Corners&) { return true; });
+  SurfacePoint best;
+  best.distance_squared = within * within;
+  if (nodes_.empty()) return best;
+  if (has(start)) try_slot(p, slot_of_triangle_[static_cast<std::size_t>(start)], best);
+  search(p, best, [&](std::int32_t leaf, int) {
+    const Lanes distances = leaves_[static_cast<std::size_t>(leaf)].distances_squared(p);
+    Eigen::Index nearest = 0;
+    // A little slack: the last digits are for the one triangle's own formula to say.
+    if (distances.minCoeff(&nearest) < best.distance_squared * kLaneSlack)
+      try_slot(p, leaf * kLeafSize + static_cast<std::int32_t>(nearest), best);
+  });
+  return best;
 }
 
 SurfacePoint SurfaceTree::closest_point_facing(const Vec3& p, const Vec3& direction, double cosine, double within,
                                                int start) const {
-  return search(p, within, start, [&](const Corners& t) {
+  SurfacePoint best;
+  best.distance_squared = within * within;
+  if (nodes_.empty()) return best;
+  const auto try_facing = [&](std::int32_t slot) {
+    const Corners t = corners(slot);
     const Vec3 normal = (t.b - t.a).cross(t.c - t.a);
     const double along = normal.dot(direction);
-    return along > 0 && along * along > cosine * cosine * normal.squaredNorm();
+    if (along > 0 && along * along > cosine * cosine * normal.squaredNorm()) try_slot(p, slot, best);
+  };
+  if (has(start)) try_facing(slot_of_triangle_[static_cast<std::size_t>(start)]);
+  search(p, best, [&](std::int32_t leaf, int count) {
+    for (int k = 0; k < count; ++k) try_facing(leaf * kLeafSize + k);
   });
+  return best;
 }
 
 int SurfaceTree::winding_number(const Vec3& p) const {
@@ -285,8 +339,8 @@ int SurfaceTree::winding_number(const Vec3& p) const {
         continue;
       }
       const std::int32_t leaf = ~child;
-      for (std::int32_t slot = leaf / 8; slot < leaf / 8 + leaf % 8; ++slot) {
-        const Corners& t = corners_[static_cast<std::size_t>(slot)];
+      for (std::int32_t slot = leaf / 8 * kLeafSize, end = slot + leaf % 8; slot < end; ++slot) {
+        const Corners t = corners(slot);
         winding += ray_crossing(p, t.a, t.b, t.c);
       }
     }

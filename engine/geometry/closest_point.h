@@ -55,23 +55,33 @@ class SurfaceTree {
   // Distance, negative where the winding number is positive: right on surfaces that touch or cross themselves.
   double signed_distance(const Vec3& p) const;
 
-  int triangle_count() const { return static_cast<int>(triangle_of_slot_.size()); }
+  int triangle_count() const { return static_cast<int>(slot_of_triangle_.size()); }
 
  private:
+  static constexpr int kLeafSize = 4;  // slots of a leaf: triangles side by side, looked at together
+  using Lanes = Eigen::Array<double, kLeafSize, 1>;
   struct Node {  // four children; boxes are widened so that single precision never hides a triangle
     std::array<float, 4> low[3], high[3];
-    std::array<std::int32_t, 4> child;  // >= 0 node; -1 none; else ~(first slot * 8 + count)
+    std::array<std::int32_t, 4> child;  // >= 0 node; -1 none; else ~(leaf * 8 + count)
+  };
+  struct Leaf {
+    std::array<Lanes, 3> a, b, c;  // coordinates of the corners; slots without a triangle repeat the first one
+
+    Lanes distances_squared(const Vec3& p) const;
   };
   struct Corners {
     Vec3 a, b, c;
   };
   struct Builder;
-  template <class Accept>
-  SurfacePoint search(const Vec3& p, double within, int start, Accept accept) const;
+  template <class TryLeaf>
+  void search(const Vec3& p, SurfacePoint& best, TryLeaf try_leaf) const;
+  Corners corners(std::int32_t slot) const;
+  void try_slot(const Vec3& p, std::int32_t slot, SurfacePoint& best) const;
+  bool has(int triangle) const { return triangle >= 0 && triangle < triangle_count(); }
 
   std::vector<Node> nodes_;
-  std::vector<Corners> corners_;  // in the order of the leaves
-  std::vector<std::int32_t> triangle_of_slot_;
+  std::vector<Leaf> leaves_;
+  std::vector<std::int32_t> triangle_of_slot_;  // kLeafSize a leaf
   std::vector<std::int32_t> slot_of_triangle_;
 };
 

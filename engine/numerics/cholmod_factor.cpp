@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include <cholmod.h>
+#include <dlfcn.h>
 
 extern "C" void openblas_set_num_threads(int threads);
 
@@ -15,6 +16,15 @@ namespace {
 void use_one_blas_thread() {
   static const bool done = (openblas_set_num_threads(1), true);
   (void)done;
+}
+
+// CHOLMOD's own loops, too: four OpenMP threads waiting for each other cost more than the small matrices they share.
+// The OpenMP that CHOLMOD brings along is asked for by name, as nothing else here is built with it; what is set holds
+// for the calling thread.
+void use_no_openmp_threads() {
+  using SetLevels = void (*)(int);
+  static const auto set_levels = reinterpret_cast<SetLevels>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"));
+  if (set_levels) set_levels(0);
 }
 
 cholmod_sparse view_of(const SparseMatrix& matrix) {
@@ -61,6 +71,7 @@ bool CholmodFactor::same_pattern(const SparseMatrix& matrix) const {
 bool CholmodFactor::compute(const SparseMatrix& matrix) {
   assert(matrix.rows() == matrix.cols() && matrix.isCompressed());
   if (!Eigen::Map<const Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).allFinite()) return false;
+  use_no_openmp_threads();
   cholmod_sparse view = view_of(matrix);
   if (!same_pattern(matrix)) {
     cholmod_free_factor(&factor_, common());

@@ -10,7 +10,7 @@ namespace {
 // Singular values of the wanted tensor stay in this range, so that its inverse stays bounded [method, Sec. 1].
 constexpr double kLeastStretch = 0.5, kMostStretch = 2.0;
 constexpr int kNewtonSteps = 8;
-constexpr double kAngleTolerance = 1e-9;  // rad; far below what a sweep moves
+constexpr double kAngleTolerance = 1e-8;  // rad; far below what a sweep moves, still told apart by the energy
 
 // Inverse of a tensor of positive determinant with its singular values clamped.
 Mat2 clamped_inverse(const Mat2& tensor) {
@@ -21,6 +21,12 @@ Mat2 clamped_inverse(const Mat2& tensor) {
   const Vec2 u = most > 0.0 ? Vec2(tensor * v / most) : v, u_across(-u.y(), u.x());
   return v * u.transpose() / std::clamp(most, kLeastStretch, kMostStretch) +
          v_across * u_across.transpose() / std::clamp(least, kLeastStretch, kMostStretch);
+}
+
+// Cosine and sine of nearly `angle`, exactly on the unit circle: a Newton step need not be hit to the last digit.
+Vec2 unit_turned_by(double angle) {
+  const double t = 0.5 * angle, scale = 1 / (1 + t * t);
+  return {(1 - t * t) * scale, 2 * t * scale};
 }
 
 double dot(const Mat2& a, const Mat2& b) {
@@ -63,12 +69,13 @@ void WantedGradients::turn(int f, const Mat2& gradient) {
     const double slope = 2.0 * ((face.bb - face.aa) * c * s + face.ab * (c * c - s * s) + p * s - q * c);
     const double bend = 2.0 * ((face.bb - face.aa) * (c * c - s * s) - 4.0 * face.ab * c * s + p * c + q * s);
     double step = bend > 0.0 ? -slope / bend : (slope > 0.0 ? -0.5 : 0.5);
+    if (std::abs(step) < kAngleTolerance) break;
     step = std::clamp(step, -1.0, 1.0);
     double next_c = c, next_s = s, next = best;
     for (int halving = 0; halving < 8; ++halving, step *= 0.5) {
-      const double dc = std::cos(step), ds = std::sin(step);
-      next_c = c * dc - s * ds;
-      next_s = s * dc + c * ds;
+      const Vec2 turned = Mat2{{c, -s}, {s, c}} * unit_turned_by(step);
+      next_c = turned[0];
+      next_s = turned[1];
       next = energy(face, next_c, next_s, p, q);
       if (next <= best) break;
     }
@@ -76,7 +83,6 @@ void WantedGradients::turn(int f, const Mat2& gradient) {
     c = next_c;
     s = next_s;
     best = next;
-    if (std::abs(step) < kAngleTolerance) break;
   }
   const double length = std::hypot(c, s);  // products of many small turns drift off the unit circle
   face.cosine = c / length;
