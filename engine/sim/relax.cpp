@@ -17,6 +17,17 @@ constexpr double kContactShare = 0.4, kHoldShare = 0.3, kWeightLength = 0.3, kLa
 // Nodes of a start this close to the body are taken as touching it, m: the sewing leaves them within 0.2 mm.
 constexpr double kStartReach = 0.001;
 
+constexpr double kCalmShare = 0.98;  // of the nodes by which settling is judged
+constexpr int kPatience = 6;         // rounds in which layers that cross may come apart when all else has settled
+
+// DrapeEnergy::residual of the nodes with the least forces.
+double calm_residual(const DrapeEnergy& energy, const Points3& gradient) {
+  Eigen::VectorXd squares = gradient.rowwise().squaredNorm();
+  const auto calm = static_cast<Eigen::Index>(std::ceil(kCalmShare * static_cast<double>(squares.size())));
+  std::nth_element(squares.data(), squares.data() + calm - 1, squares.data() + squares.size());
+  return std::sqrt(squares.head(calm).mean()) / energy.cloth().mean_node_weight();
+}
+
 // Layers that are far apart are looked for that many times more rarely.
 constexpr int kIdle = 2;
 
@@ -81,12 +92,14 @@ class Relaxation {
 
  private:
   bool done() const {
-    return result_.converged || result_.stalled || (result_.settled && result_.residual < options_.stop_settled);
+    if (result_.converged || result_.stalled) return true;
+    return result_.settled && calm_residual_ < options_.stop_settled && (!knotted_ || calm_rounds_ > kPatience);
   }
 
   // Iterations with friction as it stands; false if the residual was reached before the round was over.
   bool run_round(QuasiNewton& minimiser, const QuasiNewton::Energy& evaluate, Progress* progress) {
-    for (int i = 0; i < options_.round && result_.iterations < options_.iterations; ++i) {
+    const int round = result_.iterations < options_.first_round ? options_.first_round : options_.round;
+    for (int i = 0; i < round && result_.iterations < options_.iterations; ++i) {
       check_cancelled(progress);
       if (energy_.residual(minimiser.gradient()) < options_.stop_residual) return false;
       look_around(minimiser, evaluate);
@@ -123,8 +136,11 @@ class Relaxation {
     for (std::size_t k = 0; k < means.size(); ++k)
       result_.last_move = std::max(result_.last_move, (means[k] - watched_[k]).norm());
     watched_ = means;
-    result_.settled = result_.iterations >= options_.least_iterations && result_.residual < options_.settled_residual &&
+    calm_residual_ = calm_residual(energy_, minimiser.gradient());
+    result_.settled = result_.iterations >= options_.least_iterations && calm_residual_ < options_.settled_residual &&
                       result_.last_move < options_.settled_move;
+    calm_rounds_ += result_.settled;
+    knotted_ = energy_.cloth_contact && energy_.cloth_contact->piercings() > 0;
   }
 
   std::vector<Vec3> watched_means(const Points3& nodes) const {
@@ -149,6 +165,9 @@ class Relaxation {
   RowSolver solver_;
   std::vector<Vec3> watched_;
   int looked_at_ = 0;  // iteration of the last look around
+  double calm_residual_ = 0.0;
+  bool knotted_ = false;  // layers that cross still push
+  int calm_rounds_ = 0;   // so far
   RelaxResult result_;
 };
 

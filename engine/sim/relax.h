@@ -10,15 +10,17 @@
 namespace toile {
 
 struct RelaxOptions {
-  int iterations = 1500;          // at most, over all rounds
-  int round = 100;                // iterations after which friction is frozen anew and the settling is looked at
-  int refactor = 100;             // iterations after which the matrix takes up the present contacts
-  int look_around = 10;           // iterations after which self-contact looks for its pairs anew
-  double stop_residual = 0.3;     // of a mean node weight (DrapeEnergy::residual), with friction just frozen
-  double settled_residual = 3.0;  // below it and without movement the drape counts as settled
-  double settled_move = 0.001;    // m a watched line may move over a round and still count as settled
-  double stop_settled = 0.0;      // residual below which a drape that has settled is left at that; 0: never
-  int least_iterations = 300;     // before it may count as settled: below, even placement is not settled
+  int iterations = 1500;       // at most, over all rounds
+  int first_round = 100;       // iterations with the friction of the start
+  int round = 50;              // iterations after which friction is frozen anew and the settling is looked at
+  int refactor = 100;          // iterations after which the matrix takes up the present contacts
+  int look_around = 10;        // iterations after which self-contact looks for its pairs anew
+  double stop_residual = 0.3;  // of a mean node weight (DrapeEnergy::residual), with friction just frozen
+  // Of all nodes but the worst fiftieth: a knot of a few crossing layers may push for ever without moving anything.
+  double settled_residual = 2.6;          // below it and without movement the drape counts as settled
+  double settled_move = 0.0005;           // m a watched line may move over a round and still count as settled
+  double stop_settled = 0.0;              // the same residual below which a settled drape is left at that; 0: never
+  int least_iterations = 300;             // before it may count as settled: below, even placement is not settled
   std::vector<std::vector<int>> watched;  // lines of nodes whose mean position tells whether the garment still moves
   QuasiNewtonOptions quasi_newton;
 };

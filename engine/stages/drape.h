@@ -22,8 +22,9 @@ struct DrapeOptions {
   double contact_stiffness = 2e6;  // N/m^3, > 0
   int iterations = 2000;           // of the relaxation, at most, 0..100000; 300 settle the placement
   double stop_residual = 0.3;      // residual at which it stops, in mean node weights, > 0
-  // The same where nothing moves any more (see Rest::Settled); 0: only stop_residual counts. The error is in proportion
-  // to the residual, and that of 1.5 is below 1 mm and 0.1 % of stretch.
+  // The same where nothing moves any more, of all nodes but the worst fiftieth (see Rest::Settled); 0: only
+  // stop_residual counts. The error is in proportion to the residual, and that of 1.5 is below 1 mm and 0.1 % of
+  // stretch.
   double stop_settled = 1.5;
   double lift = 0.015;  // m the torso is arranged above the height at which it clears the shoulders, 0..0.1
   std::optional<BodyLevels> drafted_for;  // levels of the body the pattern's placement belongs to; empty: this body

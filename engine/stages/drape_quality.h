@@ -12,7 +12,7 @@ namespace toile {
 
 enum class Rest {
   Converged,  // residual force below 0.3 of a mean node's weight
-  Settled,    // below 3, and no free edge moved by 1 mm over the last 100 iterations
+  Settled,    // below 2.6 but for a fiftieth of the nodes, and no free edge moved by 0.5 mm over 50 iterations
   NotAtRest,
 };
 std::string_view rest_name(Rest rest);  // "converged", "settled", "not_at_rest"
@@ -24,7 +24,7 @@ struct StrainPercentiles {
 struct DrapeQuality {
   Rest rest = Rest::NotAtRest;
   double residual = 0.0;       // rms nodal force over the mean node weight
-  double settling_move = 0.0;  // largest mean-height change of a free edge over the last 100 iterations, m
+  double settling_move = 0.0;  // largest mean-height change of a free edge over the last round, m
   StrainPercentiles weft, warp;
   StrainPercentiles shear;      // rad
   double deepest_node = 0.0;    // exact depth of nodes inside the body, m, 0 if none
