@@ -26,6 +26,7 @@ Eigen::SparseMatrix<double> graph_laplacian(const TriangleMesh& mesh);
 // from that of their neighbours, over the median edge length. Curvature alone gives little (clean models under 0.045),
 // scanner noise of a sixth of an edge 0.1 and more.
 double surface_roughness(const TriangleMesh& mesh);
+inline constexpr double kRoughScan = 0.06;  // rougher is a scan
 
 // Smoothed copy: `steps` times an umbrella step of 0.5 and one of -0.52, which takes off noise without shrinking.
 // Vertices on open edges stay. Source: [Tau95].

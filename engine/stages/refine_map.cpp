@@ -10,7 +10,6 @@ namespace toile {
 namespace {
 
 constexpr int kTaubinSteps = 4;
-constexpr double kRough = 0.06;       // a scan; smoothing a clean model would only round it off
 constexpr double kTangential = 0.15;  // share of the pull along the surface
 // A vertex and the middle of a triangle, so weighted, measure a quadratic gap between curved skins without bias.
 constexpr double kFaceShare = 0.75;
@@ -137,8 +136,10 @@ std::vector<Pin> proxy_pins(const RegistrationReference& reference, const std::v
 
 }  // namespace
 
+// Smoothing a clean model would only round it off.
 FitTarget::FitTarget(const TriangleMesh& seen)
-    : surface_{surface_roughness(seen) > kRough ? taubin_smooth(seen, kTaubinSteps) : seen.vertices, seen.triangles},
+    : surface_{surface_roughness(seen) > kRoughScan ? taubin_smooth(seen, kTaubinSteps) : seen.vertices,
+               seen.triangles},
       tree_(surface_.vertices, surface_.triangles),
       normals_(vertex_normals(surface_.vertices, surface_.triangles)),
       open_vertex_(at(seen.vertex_count()), false),

@@ -9,6 +9,7 @@
 #include "engine/geometry/closest_point.h"
 #include "engine/stages/find_skeleton.h"
 #include "engine/stages/judge_map.h"
+#include "engine/stages/leg_web.h"
 #include "engine/stages/raise_body.h"
 #include "engine/stages/refine_map.h"
 
@@ -100,11 +101,12 @@ Record describe(const RegistrationReport& r, int landmarks_given) {
 RegisterBodiesResult register_bodies(const RegistrationReference& reference, const Body& target,
                                      const RegisterBodiesOptions& options, const Progress* progress) {
   report(progress, "register", 0.1);
-  const FindSkeletonResult found = find_skeleton(target.surface);
+  const TriangleMesh seen = without_leg_web(target.surface);
+  const FindSkeletonResult found = find_skeleton(seen);
   check_bones(reference.proportions.skeleton, found.skeleton);
   const Points3 coarse = coarse_fit(reference.surface.vertices, reference.weights, reference.proportions,
-                                    find_proportions(target.surface, found.skeleton));
-  const FitTarget fit_target(target.surface);
+                                    find_proportions(seen, found.skeleton));
+  const FitTarget fit_target(seen);
   const std::vector<Pin> pins = find_pins(reference, options.target_landmarks);
 
   RegisterBodiesResult result;
