@@ -214,6 +214,9 @@ void AlterationFiles::make_meshes() {
   const Pattern& pattern = r_.reference.pattern;
   const PatternMesh& mesh = r_.reference.mesh;
   files_.make("reference_drape.obj", kObj, [&] { return write_drape_obj(pattern, mesh, r_.reference.drape.drape); });
+  files_.make("target_worn.obj", kObj, [&] {
+    return write_drape_obj(r_.derived.drawn.pattern, r_.derived.mesh, r_.transported.drape, &r_.reference.fit);
+  });
   files_.make("target_before.obj", kObj, [&] { return write_drape_obj(pattern, mesh, r_.before.drape); });
   if (fits_.after)
     files_.make("target_after.obj", kObj,

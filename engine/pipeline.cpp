@@ -30,11 +30,12 @@ Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>&
     const auto given = read_garment_drape(garment, wearer.value);
     if (!given) return drape(pattern.value, mesh.value, wearer.value, drape_options, runner.progress());
     DrapeOptions from_given = drape_options;
-    from_given.keep_drape = garment.keep_drape;
+    from_given.keep_drape = garment.keep_drape || !garment.worn.empty();
     return drape_from(pattern.value, mesh.value, wearer.value, *given, from_given, runner.progress());
   });
-  return {{pattern.value, mesh.value, wearer.value, worn.value, build_fitting_map(mesh.value, worn.value.drape)},
-          worn.key};
+  auto wanted = read_garment_fit(garment);
+  FittingMap fit = wanted ? std::move(*wanted) : build_fitting_map(mesh.value, worn.value.drape);
+  return {{pattern.value, mesh.value, wearer.value, worn.value, std::move(fit)}, worn.key};
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include "engine/core/content_hash.h"
 #include "engine/core/error.h"
 #include "engine/io/body_json.h"
+#include "engine/io/worn_garment.h"
+#include "engine/stages/build_fitting_map.h"
 #include "engine/stages/find_skeleton.h"
 #include "engine/stages/import_pattern.h"
 #include "engine/stages/make_builtin_body.h"
@@ -81,6 +83,11 @@ ImportedGarment take_in_garment(const GarmentInput& garment) {
   }
 }
 
+std::optional<WornGarment> read_worn(const GarmentInput& garment) {
+  if (garment.worn.empty()) return std::nullopt;
+  return read_worn_garment(garment.worn, "worn garment", read_garment(garment));
+}
+
 }  // namespace
 
 std::string input_key(const GarmentInput& garment) {
@@ -90,7 +97,8 @@ std::string input_key(const GarmentInput& garment) {
       .add(garment.bytes)
       .add(garment.metre_per_uv_unit.value_or(0.0))
       .add(garment.sidecar)
-      .add(garment.keep_drape);
+      .add(garment.keep_drape)
+      .add(garment.worn);
   return hash.hex();
 }
 
@@ -110,11 +118,16 @@ Pattern read_garment(const GarmentInput& garment) {
 }
 
 std::optional<PatternMesh> read_garment_mesh(const GarmentInput& garment) {
+  if (auto worn = read_worn(garment)) return std::move(worn->mesh);
   return take_in_garment(garment).mesh;
 }
 
 std::optional<Drape> read_garment_drape(const GarmentInput& garment, const Body& wearer) {
-  std::optional<Drape> drape = take_in_garment(garment).drape;
+  std::optional<Drape> drape;
+  if (auto worn = read_worn(garment))
+    drape = std::move(worn->drape);
+  else
+    drape = take_in_garment(garment).drape;
   if (!drape) return drape;
   // Garment and body come from one scene: the body's turn and shift hold for both; the garment is in metres already.
   const Mat3 linear = wearer.normalised_from_file.topLeftCorner<3, 3>();
@@ -122,6 +135,12 @@ std::optional<Drape> read_garment_drape(const GarmentInput& garment, const Body&
   const Vec3 shift = wearer.normalised_from_file.topRightCorner<3, 1>();
   drape->nodes = ((drape->nodes * turn.transpose()).rowwise() + shift.transpose()).eval();
   return drape;
+}
+
+std::optional<FittingMap> read_garment_fit(const GarmentInput& garment) {
+  auto worn = read_worn(garment);
+  if (!worn || worn->wanted.empty()) return std::nullopt;
+  return fitting_map_of(worn->mesh, std::move(worn->wanted));
 }
 
 Body read_body(const BodyInput& body) {

@@ -4,6 +4,7 @@
 
 #include "engine/core/archive_values.h"
 #include "engine/core/drape.h"
+#include "engine/core/fitting_map.h"
 #include "engine/core/pattern.h"
 #include "engine/core/pattern_mesh.h"
 #include "engine/core/types.h"
@@ -17,6 +18,7 @@ struct GarmentInput {
   std::optional<double> metre_per_uv_unit = {};  // of an OBJ; empty: found
   Bytes sidecar = {};                            // JSON beside an OBJ (obj_garment.h), or empty
   bool keep_drape = false;                       // take the positions of an OBJ as the drape, unmoved
+  Bytes worn = {};  // beside a specification: how it hangs and the fit it was derived for (worn_garment.h), or empty
 };
 
 struct BodyInput {
@@ -32,9 +34,12 @@ std::string input_key(const BodyInput& body);
 
 // Throw the importers' and make_mannequin's errors; their subject names the input.
 Pattern read_garment(const GarmentInput& garment);
-// Of an OBJ that is draped: its mesh, and its positions in the normalised frame of the body it is worn by.
+// Of an OBJ that is draped, or beside a specification: its mesh, and its positions in the normalised frame of the body
+// it is worn by.
 std::optional<PatternMesh> read_garment_mesh(const GarmentInput& garment);
 std::optional<Drape> read_garment_drape(const GarmentInput& garment, const Body& wearer);
+// The fit that is asked for of a garment that was derived from another one, where the file beside it says so.
+std::optional<FittingMap> read_garment_fit(const GarmentInput& garment);
 Body read_body(const BodyInput& body);
 // A body to register to: with how many of its triangles close holes of a scan.
 struct TargetBody {

@@ -18,6 +18,7 @@ struct ObjTextured {
   std::vector<std::array<std::array<std::int32_t, 2>, 3>> triangles;  // per corner: position, texture
   std::vector<int> group_of_triangle;
   std::vector<std::string> groups;
+  std::vector<Mat2> wanted;  // per triangle, the fit it is to have; empty when the file says nothing
 };
 
 struct ObjIsland {

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kLongestName = 100;
 constexpr std::size_t kMostGroups = 10'000;
 constexpr std::size_t kMostCorners = 1000;  // of one polygon
+constexpr double kMostFit = 10.0;           // of a wanted fit's entries: no cloth is stretched or squeezed by more
 
 // Plain printable ASCII; anything else becomes an underscore.
 std::string printable(std::string_view text) {
@@ -41,7 +42,11 @@ class Reader {
         read_face();
       else if (word == "o" || word == "g")
         read_group();
+      else if (word == "#fit")
+        read_wanted_fit();
     }
+    if (!obj_.wanted.empty() && obj_.wanted.size() != obj_.triangles.size())
+      scanner_.fail("not every face has its \"#fit\"; have the file written again, or remove these lines");
     if (obj_.triangles.empty()) scanner_.fail("the file has no faces; export the garment as a mesh");
     return std::move(obj_);
   }
@@ -91,6 +96,16 @@ class Reader {
       obj_.triangles.push_back({corners[0], corners[i - 1], corners[i]});
       obj_.group_of_triangle.push_back(group_);
     }
+  }
+  void read_wanted_fit() {
+    const double weft = scanner_.number("the fit along the weft"), across = scanner_.number("the fit across"),
+                 warp = scanner_.number("the fit along the warp");
+    const auto usual = [](double value) { return value > 1.0 / kMostFit && value < kMostFit; };
+    if (!usual(weft) || !usual(warp) || !(std::abs(across) < kMostFit))
+      scanner_.fail("the fit of a face is none that cloth can have; have the file written again");
+    if (obj_.wanted.size() + 1 != obj_.triangles.size())
+      scanner_.fail("\"#fit\" belongs behind a face with three corners; have the file written again");
+    obj_.wanted.push_back((Mat2() << weft, across, 0.0, warp).finished());
   }
   std::array<std::int32_t, 2> read_corner(std::string_view word) {
     const std::size_t slash = word.find('/');

@@ -73,6 +73,25 @@ FittingMap build_fitting_map(const PatternMesh& mesh, const Points2& rest, const
   return map;
 }
 
+FittingMap fitting_map_of(const PatternMesh& mesh, std::vector<Mat2> tensors) {
+  refuse_inverted(mesh, mesh.rest);
+  const int count = mesh.triangle_count();
+  FittingMap map;
+  map.tensor = std::move(tensors);
+  map.degenerate.assign(static_cast<std::size_t>(count), false);
+  map.stretch_weft.resize(count);
+  map.stretch_warp.resize(count);
+  map.shear.resize(count);
+  map.rest_area = triangle_gradients(mesh.rest, mesh.triangles).area;
+  for (int f = 0; f < count; ++f) {
+    const Mat2& tensor = map.tensor[static_cast<std::size_t>(f)];
+    map.stretch_weft[f] = tensor(0, 0) - 1.0;
+    map.stretch_warp[f] = tensor.col(1).norm() - 1.0;
+    map.shear[f] = std::atan2(tensor(0, 1), tensor(1, 1));
+  }
+  return map;
+}
+
 FittingMap build_fitting_map(const PatternMesh& mesh, const Drape& drape) {
   return build_fitting_map(mesh, mesh.rest, drape);
 }

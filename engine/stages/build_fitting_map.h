@@ -20,6 +20,9 @@ FittingMap build_fitting_map(const PatternMesh& mesh, const Drape& drape);
 // The same against other flat positions (#V x 2, m) of the same pattern vertices, for example a target pattern.
 FittingMap build_fitting_map(const PatternMesh& mesh, const Points2& rest, const Drape& drape);
 
+// The map of given tensors (#F) in the tangent frame, [[a, b], [0, c]] with a, c > 0. Throws as above.
+FittingMap fitting_map_of(const PatternMesh& mesh, std::vector<Mat2> tensors);
+
 // The tensor of one deformation gradient; false where the frame is not usable and the polar frame stands in for it.
 bool fitting_tensor(const Mat32& gradient, Mat2& tensor);
 

@@ -41,6 +41,10 @@ struct PushOut {
   }
 };
 
+// Where neighbours' closest points are farther apart than they are themselves by this factor, the body bends away from
+// them as under a bust: what carries one does not carry the other.
+constexpr double kJump = 1.5;
+constexpr double kJumpTrust = 0.01;
 constexpr double kPlateReach = 0.02;  // m, of the plate where the body is trusted by half
 constexpr double kLeastTrust = 1e-4;  // far nodes: the plate then reaches ten times as far
 constexpr double kHeld = 1e3;         // weight of near nodes, which keep their place
@@ -62,6 +66,16 @@ Triangles node_triangles(const PatternMesh& mesh) {
     if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) out.row(count++) = t;
   }
   return out.topRows(count);
+}
+
+// `feet`: closest points of the nodes.
+void distrust_jumps(const Triangles& triangles, const Points3& nodes, const Points3& feet, Eigen::VectorXd& trusted) {
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles(f, k), b = triangles(f, (k + 1) % 3);
+      if ((feet.row(a) - feet.row(b)).norm() < kJump * (nodes.row(a) - nodes.row(b)).norm()) continue;
+      for (const int node : {a, b}) trusted[node] = std::min(trusted[node], kJumpTrust);
+    }
 }
 
 // Replaces the displacement of far nodes by a thin plate through that of the near ones. Open edges count
@@ -104,11 +118,13 @@ TransportGarmentResult transport_garment(const PatternMesh& mesh, const Drape& r
   Points3& nodes = result.drape.nodes;
   nodes.resize(reference_drape.nodes.rows(), 3);
   Eigen::VectorXd trusted(nodes.rows());
+  Points3 feet(nodes.rows(), 3);
   int near = -1;
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
     const Vec3 v = reference_drape.nodes.row(i);
     const SurfacePoint c = reference_tree.closest_point(v, std::numeric_limits<double>::infinity(), near);
     near = c.triangle;
+    feet.row(i) = c.point.transpose();
     trusted[i] = trust(c.distance(), options);
     const Eigen::Vector3i corners = surface.triangles.row(c.triangle);
     const Vec3 from = interpolate(normals, corners, c.barycentric);
@@ -117,7 +133,9 @@ TransportGarmentResult transport_garment(const PatternMesh& mesh, const Drape& r
     nodes.row(i) = (interpolate(map.mapped, corners, c.barycentric) + turn * (v - c.point)).transpose();
   }
   report(progress, "transport", 0.5);
-  const int bridged = bridge_gaps(node_triangles(mesh), reference_drape.nodes, trusted, nodes);
+  const Triangles triangles = node_triangles(mesh);
+  distrust_jumps(triangles, reference_drape.nodes, feet, trusted);
+  const int bridged = bridge_gaps(triangles, reference_drape.nodes, trusted, nodes);
 
   PushOut push;
   push.apply(SurfaceTree(target_body.surface.vertices, target_body.surface.triangles), target_body.surface,

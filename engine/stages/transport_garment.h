@@ -4,7 +4,8 @@
 // Every garment node keeps its offset from the closest point of the body: c = closest point of v on the reference,
 //   v' = M(c) + R (v - c),   R the smallest rotation from the normal at c to the normal at M(c).
 // Far from the body (between the legs of a skirt, under wide arms) neighbours have closest points on different limbs;
-// there the displacement is bridged by a thin plate on the garment, which keeps near nodes as they are. Nodes that end
+// there, and where closest points jump near by (under a bust), the displacement is bridged by a thin plate on the
+// garment, which keeps near nodes as they are. Nodes that end
 // inside the target body are pushed out along the way to its surface.
 // Source: [Eggler2024, Sec. 4.1]. Lengths in metres.
 #pragma once

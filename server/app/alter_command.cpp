@@ -14,7 +14,7 @@ namespace {
 
 struct JobFiles {
   std::string garment, reference_body, target_body, out;
-  std::string uv_unit, sidecar;
+  std::string uv_unit, sidecar, worn;
   bool keep_drape = false;
   BodySource reference_source, target_source;
   std::shared_ptr<JobOptions> options = std::make_shared<JobOptions>();
@@ -26,6 +26,7 @@ GarmentInput read_garment_input(const JobFiles& files) {
     input.metre_per_uv_unit = files.uv_unit == "mm" ? 1e-3 : files.uv_unit == "cm" ? 1e-2 : 1.0;
   if (!files.sidecar.empty()) input.sidecar = read_file(files.sidecar);
   input.keep_drape = files.keep_drape;
+  if (!files.worn.empty()) input.worn = read_file(files.worn);
   return input;
 }
 
@@ -72,6 +73,12 @@ void add_garment_options(CLI::App& command, const std::shared_ptr<JobFiles>& fil
   command
       .add_option("--seams", files->sidecar,
                   "OBJ garment: file beside it with seams, names of panels, allowances (JSON)")
+      ->type_name("FILE");
+  command
+      .add_option(
+          "--worn", files->worn,
+          "Pattern out of an earlier alteration (target_pattern.json): the target_worn.obj beside it. The fit it "
+          "was derived for is asked for again, so that the errors of both times do not add up")
       ->type_name("FILE");
   command.add_option("--out", files->out, "Folder for the results; made if needed")->type_name("FOLDER")->required();
 }

@@ -5,7 +5,8 @@
 #include <cstdio>
 
 #include "engine/core/error.h"
-#include "engine/stage_options.h"
+#include "engine/io/drape_obj.h"
+#include "engine/io/garmentcode_json.h"
 #include "tests/bench/derive.h"
 #include "tests/support/shared_data.h"
 
@@ -14,16 +15,15 @@ namespace {
 
 constexpr double kMm = 1e3, kGate = 2e-3;
 
-// The target pattern of the first way is the reference of the way back.
-DerivedPattern way_back(const DerivedGarment& there, const AlterOptions& options) {
+// The way back as a user takes it: target_pattern.json of the first way with the target_worn.obj beside it.
+DerivedGarment way_back(const DerivedGarment& there, const std::string& from, const std::string& to,
+                        const AlterOptions& options, StageCache* stages) {
   const DerivedPattern& d = there.derived;
-  const BodyMap map = register_bodies(there.target_body, there.reference.body).map;
-  const Drape transported =
-      transport_garment(d.mesh, d.drape.drape, there.target_body, there.reference.body, map).drape;
-  const auto plane = mirror_plane_of(options, d.drawn.pattern);
-  const auto mirrors = plane ? find_garment_mirrors(d.drawn.pattern, d.mesh, d.drape.drape, *plane) : GarmentMirrors{};
-  return derive_in_loop(d.drawn.pattern, d.mesh, d.fit, there.reference.body, transported, mirrors,
-                        derive_options_of(options), drape_options_of(options), loop_options_of(options));
+  const std::string pattern = write_garmentcode(d.drawn.pattern);
+  GarmentInput garment{"target_pattern.json", Bytes(pattern.begin(), pattern.end())};
+  garment.worn = write_drape_obj(d.drawn.pattern, d.mesh, there.transported.drape, &there.reference.fit);
+  StageRunner runner(stages, nullptr, kDeriveStages);
+  return derive_garment(garment, shared_wearer(from), shared_wearer(to), options, runner).value;
 }
 
 // Distances of pattern vertices, every panel shifted to the same centre, and turned as fits best where that is asked.
@@ -49,28 +49,33 @@ int derive_trips(const DeriveRequest& request, const Arguments& arguments) {
   const auto stages = stage_store(request.stages);
   Table table({"garment", "there and back", "changed by mm (p95)", "back: median mm", "p95 mm", "p95 turned mm",
                "largest mm", "fit there %", "fit back %"});
-  int beyond = 0;
+  int beyond = 0, beyond_turned = 0;
   for (const std::string& garment : request.garments)
     for (const std::string& body : request.bodies) {
       try {
         const DerivedGarment there = derive_pair(garment, body, request.options, stages.get());
-        const DerivedPattern back = way_back(there, request.options);
+        const DerivedGarment came =
+            way_back(there, body, test::body_of_garment(garment), request.options, stages.get());
+        const Points2& back = came.derived.mesh.rest;
         const PatternMesh& mesh = there.reference.mesh;
         const auto changed = distances(mesh, there.derived.mesh.rest, mesh.rest);
-        const auto off = distances(mesh, back.mesh.rest, mesh.rest);
+        const auto off = distances(mesh, back, mesh.rest);
         const auto p95 = [](const std::vector<double>& d) { return d[d.size() * 95 / 100]; };
+        const auto turned = distances(mesh, back, mesh.rest, true);
         beyond += p95(off) > kGate;
+        beyond_turned += p95(turned) > kGate;
         table.add({garment, test::body_of_garment(garment) + " - " + body, fixed(kMm * p95(changed), 1),
-                   fixed(kMm * off[off.size() / 2], 2), fixed(kMm * p95(off), 2),
-                   fixed(kMm * p95(distances(mesh, back.mesh.rest, mesh.rest, true)), 2), fixed(kMm * off.back(), 2),
-                   fixed(100 * there.derived.rms_stretch_error, 2), fixed(100 * back.rms_stretch_error, 2)});
+                   fixed(kMm * off[off.size() / 2], 2), fixed(kMm * p95(off), 2), fixed(kMm * p95(turned), 2),
+                   fixed(kMm * off.back(), 2), fixed(100 * there.derived.rms_stretch_error, 2),
+                   fixed(100 * came.derived.rms_stretch_error, 2)});
       } catch (const Error& error) {
         ++beyond;
         table.add({garment, body, error.message});
       }
     }
   table.print(arguments.csv);
-  std::printf("round trips beyond 2 mm (p95): %d\n", beyond);
+  std::printf("round trips beyond 2 mm (p95): %d; with panels laid over each other as fits best: %d\n", beyond,
+              beyond_turned);
   return beyond == 0 ? 0 : 1;
 }
 

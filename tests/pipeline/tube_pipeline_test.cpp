@@ -54,6 +54,41 @@ TEST(TubePipeline, WidensAndLengthensTheSkirtAsTheFormGrows) {
   EXPECT_NEAR(taller.y(), 1.25, kRatioTolerance);
 }
 
+// target_pattern.json with target_worn.obj beside it.
+GarmentInput handed_on(const AlterResult& there, const BodyInput& body) {
+  AlterOptions options = small();
+  options.outputs = {"target_pattern.json", "target_worn.obj"};
+  GarmentInput again;
+  for (const OutputFile& file : alter_outputs(there, options, job_info(tube_skirt(), body, body))) {
+    if (file.name == "target_pattern.json") again.bytes = file.bytes;
+    if (file.name == "target_worn.obj") again.worn = file.bytes;
+  }
+  again.name = "target_pattern.json";
+  return again;
+}
+
+TEST(TubePipeline, ComesBackFromAnotherFormToThePatternItWentWith) {
+  const BodyInput slim{.name = "builtin:tube-14-100", .bytes = {}}, stout{.name = "builtin:tube-18-125", .bytes = {}};
+  const AlterResult there = alter_tube("tube-14-100", "tube-18-125");
+  StageRunner runner(nullptr, nullptr, kDeriveStages);
+  const DerivedGarment back = derive_garment(handed_on(there, stout), stout, slim, small(), runner).value;
+  const auto size = [](const Points2& rest) -> Vec2 {
+    return (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).transpose();
+  };
+  // Asked for on the way back is the fit of the first form, not what the drape on the second one reached.
+  EXPECT_NEAR(back.reference.fit.stretch_weft.mean(), there.reference.fit.stretch_weft.mean(), 1e-5);
+  for (std::size_t p = 0; p < there.reference.mesh.panels.size(); ++p) {
+    const auto of_panel = [p](const PatternMesh& mesh, const Points2& rest) -> Points2 {
+      const PanelRange& range = mesh.panels[p];
+      return rest.middleRows(range.vertex_begin, range.vertex_end - range.vertex_begin);
+    };
+    const Vec2 before = size(of_panel(there.reference.mesh, there.reference.mesh.rest)),
+               after = size(of_panel(back.reference.mesh, back.derived.mesh.rest));
+    EXPECT_NEAR(after.x(), before.x(), 5e-4);
+    EXPECT_NEAR(after.y(), before.y(), 5e-4);
+  }
+}
+
 struct MemoryCache : StageCache {
   std::map<std::string, Bytes> kept;
   int hits = 0;

@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/error.h"
 #include "engine/geometry/curve.h"
 #include "engine/io/drape_obj.h"
+#include "engine/io/worn_garment.h"
+#include "engine/stages/build_fitting_map.h"
 #include "engine/stages/import_pattern.h"
 #include "engine/stages/mesh_panels.h"
 #include "tests/support/shared_data.h"
@@ -61,6 +64,83 @@ TEST(ImportGarment, ADrapedGarmentWrittenAsObjComesBackWithItsPanelsAndSeams) {
     for (const auto& seam : mesh.seam_vertices) sewn_before += seam.size() - 1;
     EXPECT_EQ(sewn, sewn_before);
   }
+}
+
+// Tensors that differ for every triangle, within what the file keeps of them.
+FittingMap some_fit(const PatternMesh& mesh) {
+  std::vector<Mat2> tensors;
+  for (int f = 0; f < mesh.triangle_count(); ++f)
+    tensors.push_back((Mat2() << 1.0 + 1e-5 * f, -0.02, 0.0, 1.1 - 1e-5 * f).finished());
+  return fitting_map_of(mesh, std::move(tensors));
+}
+
+TEST(WornGarment, ComesBackVertexForVertexWithTheFitItWasDerivedFor) {
+  TOILE_REQUIRE_SHARED_DATA();
+  for (const std::string& name : test::shared_garment_names()) {
+    SCOPED_TRACE(name);
+    const Pattern pattern =
+        import_pattern(test::read_file(test::shared_data("garments/" + name + "_specification.json")));
+    const PatternMesh mesh = mesh_panels(pattern, {2000, {}});
+    const Drape drape = scattered_drape(pattern, mesh);
+    const FittingMap fit = some_fit(mesh);
+    const WornGarment worn = read_worn_garment(write_drape_obj(pattern, mesh, drape, &fit), "worn", pattern);
+    EXPECT_LT((worn.mesh.rest - mesh.rest).cwiseAbs().maxCoeff(), 1e-7);
+    EXPECT_LT((worn.drape.nodes - drape.nodes).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_EQ(worn.mesh.triangles, mesh.triangles);
+    EXPECT_EQ(worn.mesh.node_of_vertex, mesh.node_of_vertex);
+    EXPECT_EQ(worn.mesh.panel_reversed, mesh.panel_reversed);
+    EXPECT_EQ(worn.mesh.edge_vertices, mesh.edge_vertices);
+    EXPECT_EQ(worn.mesh.seam_vertices, mesh.seam_vertices);
+    ASSERT_EQ(worn.wanted.size(), fit.tensor.size());
+    for (std::size_t f = 0; f < fit.tensor.size(); ++f)
+      EXPECT_LT((worn.wanted[f] - fit.tensor[f]).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_TRUE(read_worn_garment(write_drape_obj(pattern, mesh, drape), "worn", pattern).wanted.empty());
+  }
+}
+
+TEST(WornGarment, OfAnotherPatternIsRefused) {
+  TOILE_REQUIRE_SHARED_DATA();
+  const auto read = [](const char* name) {
+    return import_pattern(test::read_file(test::shared_data(std::string("garments/") + name + "_specification.json")));
+  };
+  const Pattern pattern = read("tshirt_fitted");
+  const PatternMesh mesh = mesh_panels(pattern, {2000, {}});
+  const Bytes worn = write_drape_obj(pattern, mesh, scattered_drape(pattern, mesh));
+  EXPECT_THROW(read_worn_garment(worn, "worn", read("leggings_tight")), Error);
+  Pattern longer = pattern;
+  longer.panels[0].corners[0].y() += 0.01;
+  EXPECT_THROW(read_worn_garment(worn, "worn", longer), Error);
+  Pattern unsewn_elsewhere = pattern;
+  std::swap(unsewn_elsewhere.seams[0].b, unsewn_elsewhere.seams[1].b);
+  EXPECT_THROW(read_worn_garment(worn, "worn", unsewn_elsewhere), Error);
+}
+
+TEST(WornGarment, FilesThatAreNoneAreRefused) {
+  Pattern pattern;
+  pattern.panels.resize(1);
+  pattern.panels[0].corners = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  pattern.panels[0].edges.resize(4);
+  const std::string good =
+      "v 0 0 0\nv 1 0 0\nv 1 1 .1\nv 0 1 0\nvt 0 0\nvt 100 0\nvt 100 100\nvt 0 100\n"
+      "f 1/1 2/2 3/3\n#fit 1.05 -0.02 0.98\nf 1/1 3/3 4/4\n#fit 1.04 0.01 1.01\n";
+  const auto read = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return read_worn_garment(Bytes(text.begin(), text.end()), "worn", pattern);
+  };
+  EXPECT_EQ(read("0.98", "0.99").wanted[0](1, 1), 0.99);
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"#fit 1.05", "#fit 0"},
+                                                        {"#fit 1.05", "#fit nan"},
+                                                        {"-0.02", "-20"},
+                                                        {"-0.02", ""},
+                                                        {"#fit 1.05 -0.02 0.98\n", ""},
+                                                        {"#fit", "#fit 1 0 1\n#fit"},
+                                                        {"vt 0 100", "vt 50 50"},
+                                                        {"4/4", "4/2"},
+                                                        {"f 1/1 3/3", "f 1/1 2/2 3/3\nf 1/1 3/3"},
+                                                        {"v 0 0 0", "v 0 0 nan"}})
+    EXPECT_THROW(read(from, to), Error) << from << " to " << to;
 }
 
 TEST(ImportGarment, ReadsASpecificationWithoutADrape) {
