@@ -86,12 +86,12 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   const auto plane = mirror_plane_of(options, pattern);
   auto [before, derived] = runner.run_both(
       [&](StageRunner& part) {
-        return part.run("drape_before", 9, key_of(transported.key, drape_options), [&] {
+        return part.run("drape_before", 10, key_of(transported.key, drape_options), [&] {
           return drape_from(pattern, mesh, target, transported.value.drape, drape_options, part.progress());
         });
       },
       [&](StageRunner& part) {
-        return part.run("derive_pattern", 13, key_of(transported.key, derive_options, loop_options, plane), [&] {
+        return part.run("derive_pattern", 14, key_of(transported.key, derive_options, loop_options, plane), [&] {
           const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
           return derive_in_loop(pattern, mesh, fit, target, transported.value.drape, mirrors, derive_options,
                                 drape_options, loop_options, part.progress());
@@ -118,7 +118,7 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
     return {std::move(ideal.value), altered.value, {}};
   }
   const DrapeOptions drape_options = drape_options_of(options);
-  const auto after = runner.run("drape_altered", 8, key_of(altered.key, ideal.key, drape_options), [&] {
+  const auto after = runner.run("drape_altered", 9, key_of(altered.key, ideal.key, drape_options), [&] {
     return drape_altered(altered.value.sewn, mesh, fit, ideal.value.derived, ideal.value.target_body, drape_options,
                          runner.progress());
   });

@@ -25,7 +25,7 @@ constexpr int kInsideSweeps = 20;
 struct StageSweeps {
   int first, later;
 };
-constexpr StageSweeps kSweeps{40, 30}, kNearSweeps{10, 10};
+constexpr StageSweeps kSweeps{20, 15}, kNearSweeps{10, 10};
 constexpr double kLeastDeterminant = 0.05;  // of a triangle whose outline leaves it room: no flip, no sliver
 
 class Derivation {

@@ -26,6 +26,8 @@ constexpr double kUsualTension = 1000;  // N/m, of the cloth that the default co
 
 constexpr int kPairs = 5;  // of the minimiser: 4 to 20 need as many iterations on garments, and fewer fit the cache
 
+constexpr int kLeastFromWorn = 150;  // iterations before a garment that was worn already may count as settled
+
 constexpr double kTangledShare = 0.1;  // of piercings in the triangles: worn and transported garments have under 0.01
 
 // Contact of a garment that is far too small is made stiffer until no node is that deep in the body, m. Firmer contact
@@ -262,6 +264,7 @@ class Draper {
     relax_options.stop_residual = options_.stop_residual;
     relax_options.stop_settled = options_.stop_settled;
     relax_options.quasi_newton.memory = kPairs;
+    if (levels_are_own_) relax_options.least_iterations = kLeastFromWorn;
     relax_options.watched = free_lines(pattern_, mesh_);
     const RelaxResult relaxed = relax(energy, start, relax_options, progress_);
     result_.drape.nodes = relaxed.nodes;

@@ -71,7 +71,7 @@ TEST(SlowAlterGarments, AHigherPreferenceForSeamsCutsLess) {
     options.seam_preference = gamma;
     return alter_pattern(derived.reference.pattern, derived.reference.mesh, derived.derived.mesh.rest, options);
   };
-  const AlterPatternResult cutting = altered(1.5), sewing = altered(3.0);
+  const AlterPatternResult cutting = altered(1.0), sewing = altered(3.0);
   EXPECT_GE(test::tears_of(cutting, TearKind::Edge), 1u);
   EXPECT_EQ(test::tears_of(sewing, TearKind::Edge), 0u);
   EXPECT_GE(test::tears_of(sewing, TearKind::Release), test::tears_of(cutting, TearKind::Release));
