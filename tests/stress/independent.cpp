@@ -39,15 +39,19 @@ double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 
 using Corners = std::array<Vec3, 3>;
 
-bool passes_through(const Vec3& p, const Vec3& q, const Corners& t) {
-  if (!(volume(t[0], t[1], t[2], p) * volume(t[0], t[1], t[2], q) < 0)) return false;
+constexpr double kTouch = 1e-10;  // volume, of the cube of the size, below which a sign is rounding
+
+// Volumes count as positive above `least`: > 0 asks for a clear crossing, < 0 lets touching pass for one.
+bool passes_through(const Vec3& p, const Vec3& q, const Corners& t, double least) {
+  const double before = volume(t[0], t[1], t[2], p), after = volume(t[0], t[1], t[2], q);
   const double s0 = volume(p, q, t[0], t[1]), s1 = volume(p, q, t[1], t[2]), s2 = volume(p, q, t[2], t[0]);
-  return (s0 > 0 && s1 > 0 && s2 > 0) || (s0 < 0 && s1 < 0 && s2 < 0);
+  const bool apart = (before > least && after < -least) || (before < -least && after > least);
+  return apart && ((s0 > least && s1 > least && s2 > least) || (s0 < -least && s1 < -least && s2 < -least));
 }
 
-bool cross(const Corners& s, const Corners& t) {
+bool cross(const Corners& s, const Corners& t, double least) {
   for (std::size_t k = 0; k < 3; ++k)
-    if (passes_through(s[k], s[(k + 1) % 3], t) || passes_through(t[k], t[(k + 1) % 3], s)) return true;
+    if (passes_through(s[k], s[(k + 1) % 3], t, least) || passes_through(t[k], t[(k + 1) % 3], s, least)) return true;
   return false;
 }
 
@@ -107,7 +111,7 @@ double deepest_node(const Points3& nodes, const TriangleMesh& surface, int strid
   return deepest;
 }
 
-int crossing_pairs_by_volumes(const PatternMesh& mesh, const Points3& nodes) {
+CrossingPairs crossing_pairs_by_volumes(const PatternMesh& mesh, const Points3& nodes) {
   std::vector<Corners> corners;
   std::vector<Eigen::AlignedBox3d> boxes;
   for (int f = 0; f < mesh.triangle_count(); ++f) {
@@ -120,11 +124,14 @@ int crossing_pairs_by_volumes(const PatternMesh& mesh, const Points3& nodes) {
     const Eigen::Vector3i a = mesh.nodes_of_triangle(f), b = mesh.nodes_of_triangle(g);
     return (a.array() == b[0]).any() || (a.array() == b[1]).any() || (a.array() == b[2]).any();
   };
-  int count = 0;
+  CrossingPairs count;
   for (int f = 0; f < mesh.triangle_count(); ++f)
     for (int g = f + 1; g < mesh.triangle_count(); ++g) {
       const auto i = static_cast<std::size_t>(f), j = static_cast<std::size_t>(g);
-      count += boxes[i].intersects(boxes[j]) && !share_node(f, g) && cross(corners[i], corners[j]);
+      if (!boxes[i].intersects(boxes[j]) || share_node(f, g)) continue;
+      const double touch = kTouch * std::pow(boxes[i].merged(boxes[j]).diagonal().norm(), 3);
+      count.sure += cross(corners[i], corners[j], touch);
+      count.possible += cross(corners[i], corners[j], -touch);
     }
   return count;
 }

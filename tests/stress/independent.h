@@ -23,8 +23,12 @@ double rms_difference(const Strains& a, const Strains& b);
 // Depth of the deepest of the nodes inside the surface, m; `stride` > 1 looks at every so many.
 double deepest_node(const Points3& nodes, const TriangleMesh& surface, int stride);
 
-// Pairs of triangles without a common node of which an edge of one passes through the other.
-int crossing_pairs_by_volumes(const PatternMesh& mesh, const Points3& nodes);
+// Pairs of triangles without a common node of which an edge of one passes through the other. In a drape that is the
+// same on both sides edges meet exactly, and whether such a pair crosses is a matter of rounding.
+struct CrossingPairs {
+  int sure = 0, possible = 0;  // without and with those that touch
+};
+CrossingPairs crossing_pairs_by_volumes(const PatternMesh& mesh, const Points3& nodes);
 
 // Triangles of the flat mesh that lie turned over or without area.
 int flipped_triangles(const Triangles& triangles, const Points2& rest);
