@@ -37,8 +37,8 @@ std::string work_sentence(const Ticket& ticket) {
 
 std::string fit_sentence(const JobFits& fits) {
   const auto rms = [](const FitComparison& fit) { return percent(fit.whole.rms_stretch); };
-  std::string text =
-      "The cloth's stretch differs from that on the reference body by " + rms(fits.before) + " before the alteration, ";
+  std::string text = "The cloth's stretch differs from that on the reference body by " + rms(*fits.before) +
+                     " before the alteration, ";
   if (fits.after) text += rms(*fits.after) + " after it, ";
   return text + rms(fits.ideal) + " with the ideal pattern (root mean square).";
 }
@@ -52,9 +52,8 @@ std::string rest_words(Rest rest) {
 JobFits compare_job_fits(const AlterResult& r) {
   const PatternMesh& mesh = r.reference.mesh;
   const auto zones = body_zones(r.reference.pattern, mesh, r.reference.drape.drape, r.reference.body);
-  JobFits fits{compare_fits(mesh, r.reference.fit, r.fit_before, {}, zones),
-               compare_fits(mesh, r.reference.fit, r.derived.fit, {}, zones),
-               {}};
+  JobFits fits{{}, compare_fits(mesh, r.reference.fit, r.derived.fit, {}, zones), {}};
+  if (r.before) fits.before = compare_fits(mesh, r.reference.fit, r.fit_before, {}, zones);
   if (r.after && r.after->problem.empty())
     fits.after = compare_fits(r.after->mesh, r.after->reference, r.after->fit, {},
                               body_zones(r.altered.sewn.pattern, r.after->mesh, r.after->drape.drape, r.target_body));
@@ -88,7 +87,7 @@ HtmlTable zone_table(const JobFits& fits) {
   table.columns.insert(table.columns.end(), {"ideal, weft", "ideal, warp"});
   const auto add = [&](std::string_view zone, const auto& difference) {
     std::vector<std::string> row = {std::string(zone)};
-    for (const FitComparison* fit : {&fits.before, fits.after ? &*fits.after : nullptr, &fits.ideal}) {
+    for (const FitComparison* fit : {&*fits.before, fits.after ? &*fits.after : nullptr, &fits.ideal}) {
       if (!fit) continue;
       row.push_back(signed_percent(difference(*fit).mean_weft));
       row.push_back(signed_percent(difference(*fit).mean_warp));
@@ -96,15 +95,15 @@ HtmlTable zone_table(const JobFits& fits) {
     table.rows.push_back(std::move(row));
   };
   add("whole garment", [](const FitComparison& fit) { return fit.whole; });
-  for (std::size_t z = 0; z < fits.before.zones.size(); ++z)
-    if (fits.before.zones[z].area > 0.0 && static_cast<BodyZone>(z) != BodyZone::Whole)
+  for (std::size_t z = 0; z < fits.before->zones.size(); ++z)
+    if (fits.before->zones[z].area > 0.0 && static_cast<BodyZone>(z) != BodyZone::Whole)
       add(zone_name(static_cast<BodyZone>(z)), [z](const FitComparison& fit) { return fit.zones[z]; });
   return table;
 }
 
 HtmlTable drape_quality_table(const AlterResult& r) {
   std::vector<std::pair<const char*, const DrapeQuality*>> drapes = {{"reference", &r.reference.drape.quality},
-                                                                     {"before", &r.before.quality}};
+                                                                     {"before", &r.before->quality}};
   if (r.after && r.after->problem.empty()) drapes.emplace_back("after", &r.after->drape.quality);
   drapes.emplace_back("ideal", &r.derived.drape.quality);
   HtmlTable table{"How sound the simulated drapes are", {""}, {}};

@@ -11,8 +11,9 @@ namespace toile {
 
 // Fits of a job against the fit on the reference body.
 struct JobFits {
-  FitComparison before, ideal;         // the garment as it was; as the target pattern has it
-  std::optional<FitComparison> after;  // as altered, where that could be sewn and draped
+  std::optional<FitComparison> before;  // the garment as it was, where an output needs that
+  FitComparison ideal;                  // as the target pattern has it
+  std::optional<FitComparison> after;   // as altered, where that could be sewn and draped
 };
 JobFits compare_job_fits(const AlterResult& result);
 
@@ -21,6 +22,7 @@ std::string readable_garment_name(const std::string& name);
 
 // What was done and what came of it, with everything that the reader must know before cutting.
 std::vector<std::string> summary_sentences(const AlterResult& result, const JobFits& fits);
+// The tables, like the sentences, require `before`.
 HtmlTable zone_table(const JobFits& fits);
 HtmlTable drape_quality_table(const AlterResult& result);
 

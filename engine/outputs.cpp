@@ -110,7 +110,8 @@ class AlterationFiles {
         files_(options.outputs),
         ticket_(named_ticket(result, info)),
         fits_(compare_job_fits(result)) {
-    std::vector<const Drape*> compared = {&r_.reference.drape.drape, &r_.before.drape, &r_.derived.drape.drape};
+    std::vector<const Drape*> compared = {&r_.reference.drape.drape, &r_.derived.drape.drape};
+    if (r_.before) compared.push_back(&r_.before->drape);
     if (fits_.after) compared.push_back(&r_.after->drape.drape);
     frame_ = frame_of(compared);
   }
@@ -151,7 +152,7 @@ class AlterationFiles {
     return picture(garment.body, garment.mesh, garment.drape, garment.fit, nullptr, "reference");
   }};
   OnDemand<Bytes> fit_before_{[this] {
-    return picture(r_.target_body, r_.reference.mesh, r_.before, r_.fit_before, &r_.reference.fit, "before");
+    return picture(r_.target_body, r_.reference.mesh, *r_.before, r_.fit_before, &r_.reference.fit, "before");
   }};
   OnDemand<Bytes> fit_target_{[this] {
     return picture(r_.target_body, r_.reference.mesh, r_.derived.drape, r_.derived.fit, &r_.reference.fit,
@@ -181,7 +182,7 @@ Bytes AlterationFiles::transport_picture() const {
     const FittingMap fit = build_fitting_map(r_.reference.mesh, drape);
     return draw_views(&r_.target_body.surface, &r_.reference.mesh, &drape, &fit, views);
   };
-  const Image carried = draw(r_.transported.drape, "carried by the body map"), worn = draw(r_.before.drape, "draped");
+  const Image carried = draw(r_.transported.drape, "carried by the body map"), worn = draw(r_.before->drape, "draped");
   Image both(carried.width + worn.width, std::max(carried.height, worn.height), Rgb{255, 255, 255});
   paste(both, carried, 0, 0);
   paste(both, worn, carried.width, 0);
@@ -217,7 +218,7 @@ void AlterationFiles::make_meshes() {
   files_.make("target_worn.obj", kObj, [&] {
     return write_drape_obj(r_.derived.drawn.pattern, r_.derived.mesh, r_.transported.drape, &r_.reference.fit);
   });
-  files_.make("target_before.obj", kObj, [&] { return write_drape_obj(pattern, mesh, r_.before.drape); });
+  files_.make("target_before.obj", kObj, [&] { return write_drape_obj(pattern, mesh, r_.before->drape); });
   if (fits_.after)
     files_.make("target_after.obj", kObj,
                 [this] { return write_drape_obj(r_.altered.sewn.pattern, r_.after->mesh, r_.after->drape.drape); });
@@ -275,21 +276,22 @@ Bytes AlterationFiles::report() {
 Record AlterationFiles::result() const {
   const Pattern& pattern = r_.reference.pattern;
   Record compared_fits;
-  compared_fits.add("before", fit_record(pattern, fits_.before)).add("ideal", fit_record(pattern, fits_.ideal));
+  if (fits_.before) compared_fits.add("before", fit_record(pattern, *fits_.before));
+  compared_fits.add("ideal", fit_record(pattern, fits_.ideal));
   if (fits_.after) compared_fits.add("after", fit_record(r_.altered.sewn.pattern, *fits_.after));
   Record quality;
-  quality.add("reference_drape", quality_record(r_.reference.drape.quality))
-      .add("target_drape_before", quality_record(r_.before.quality))
-      .add("target_pattern_drape", quality_record(r_.derived.drape.quality))
+  quality.add("reference_drape", quality_record(r_.reference.drape.quality));
+  if (r_.before) quality.add("target_drape_before", quality_record(r_.before->quality));
+  quality.add("target_pattern_drape", quality_record(r_.derived.drape.quality))
       .add("area_imbalance", r_.altered.area_imbalance)
       .add("flags", Record::Value(r_.altered.flags));
   if (fits_.after) quality.add("target_drape_after", quality_record(r_.after->drape.quality));
   Record stages;
   stages.add("reference_drape", drape_record(r_.reference.drape))
       .add("register_bodies", r_.registration.diagnostics)
-      .add("transport_garment", r_.transported.diagnostics)
-      .add("target_drape_before", drape_record(r_.before))
-      .add("derive_pattern", derivation_record(r_.derived))
+      .add("transport_garment", r_.transported.diagnostics);
+  if (r_.before) stages.add("target_drape_before", drape_record(*r_.before));
+  stages.add("derive_pattern", derivation_record(r_.derived))
       .add("fit_pattern_edges", edges_record(r_.derived.drawn))
       .add("alter_pattern", alteration_record(r_.altered));
   if (r_.after) stages.add("drape_altered", after_record(*r_.after));

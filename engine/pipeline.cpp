@@ -38,6 +38,12 @@ Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>&
   return {{pattern.value, mesh.value, wearer.value, worn.value, std::move(fit)}, worn.key};
 }
 
+bool wants_any(const AlterOptions& options, std::initializer_list<std::string_view> files) {
+  return std::any_of(files.begin(), files.end(), [&](std::string_view name) {
+    return std::find(options.outputs.begin(), options.outputs.end(), name) != options.outputs.end();
+  });
+}
+
 }  // namespace
 
 Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput& body, const AlterOptions& options,
@@ -47,10 +53,13 @@ Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput&
 }
 
 bool wants_after(const AlterOptions& options) {
-  constexpr std::array<std::string_view, 4> kShowing = {"all", "target_after.obj", "fit_after.png", "report.html"};
-  return std::any_of(kShowing.begin(), kShowing.end(), [&](std::string_view name) {
-    return std::find(options.outputs.begin(), options.outputs.end(), name) != options.outputs.end();
-  });
+  return wants_any(options, {"all", "target_after.obj", "fit_after.png", "report.html"});
+}
+
+// Pictures share a frame in which this drape has its place, too.
+bool wants_before(const AlterOptions& options) {
+  return wants_any(options, {"all", "result.json", "target_before.obj", "fit_reference.png", "fit_before.png",
+                             "fit_target.png", "fit_after.png", "transport.png", "report.html"});
 }
 
 Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInput& reference_body,
@@ -85,10 +94,14 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   });
   const auto plane = mirror_plane_of(options, pattern);
   auto [before, derived] = runner.run_both(
-      [&](StageRunner& part) {
-        return part.run("drape_before", 10, key_of(transported.key, drape_options), [&] {
-          return drape_from(pattern, mesh, target, transported.value.drape, drape_options, part.progress());
-        });
+      [&](StageRunner& part) -> std::optional<DrapeResult> {
+        if (!wants_before(options)) return part.skip("drape_before"), std::nullopt;
+        return part
+            .run("drape_before", 10, key_of(transported.key, drape_options),
+                 [&] {
+                   return drape_from(pattern, mesh, target, transported.value.drape, drape_options, part.progress());
+                 })
+            .value;
       },
       [&](StageRunner& part) {
         return part.run("derive_pattern", 14, key_of(transported.key, derive_options, loop_options, plane), [&] {
@@ -98,8 +111,8 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
         });
       });
 
-  FittingMap fit_before = build_fitting_map(mesh, before.value.drape);
-  return {{std::move(reference.value), target, registered, transported.value, before.value, std::move(fit_before),
+  FittingMap fit_before = before ? build_fitting_map(mesh, before->drape) : FittingMap();
+  return {{std::move(reference.value), target, registered, transported.value, std::move(before), std::move(fit_before),
            derived.value},
           derived.key};
 }

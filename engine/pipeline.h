@@ -35,9 +35,9 @@ struct DerivedGarment {
   Body target_body;
   RegisterBodiesResult registration;
   TransportGarmentResult transported;
-  DrapeResult before;  // the garment as it is, on the target body
-  FittingMap fit_before;
-  DerivedPattern derived;  // the ideal pattern and its drape on the target body
+  std::optional<DrapeResult> before;  // the garment as it is, on the target body, when an output needs it
+  FittingMap fit_before;              // of `before`
+  DerivedPattern derived;             // the ideal pattern and its drape on the target body
 };
 
 struct AlterResult : DerivedGarment {
@@ -48,9 +48,9 @@ struct AlterResult : DerivedGarment {
 // How many stages a runner of each goes through, for its share of the progress.
 inline constexpr int kDrapeStages = 4, kDeriveStages = 9, kAlterStages = 11;
 
-// Whether an output that is asked for shows the altered garment on the target body.
+// Whether an output that is asked for shows the altered garment on the target body, or tells of the garment as it is.
 bool wants_after(const AlterOptions& options);
-
+bool wants_before(const AlterOptions& options);
 
 // All throw what their stages throw.
 Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput& body, const AlterOptions& options,

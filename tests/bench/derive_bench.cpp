@@ -41,7 +41,7 @@ Outcome outcome_of(const DerivedGarment& r) {
   const PatternMesh& mesh = r.reference.mesh;
   o.stretch_before = compare_fits(mesh, r.reference.fit, r.fit_before).whole.rms_stretch;
   o.stretch_after = compare_fits(mesh, r.reference.fit, r.derived.fit).whole.rms_stretch;
-  o.position_before = compare_positions(r.transported.drape.nodes, r.before.drape.nodes).rms;
+  o.position_before = compare_positions(r.transported.drape.nodes, r.before->drape.nodes).rms;
   o.position_after = compare_positions(r.transported.drape.nodes, r.derived.drape.drape.nodes).rms;
   o.seam = r.derived.drawn.largest_seam_mismatch;
   o.deviation = r.derived.drawn.largest_deviation;

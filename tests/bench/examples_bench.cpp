@@ -63,7 +63,7 @@ std::vector<std::string> row_of(const AlterResult& r) {
   const bool sewn = r.after && r.after->problem.empty();
   const double before = compare_fits(mesh, r.reference.fit, r.fit_before).whole.rms_stretch;
   return {state(r.reference.drape.quality),
-          state(r.before.quality),
+          state(r.before->quality),
           state(r.derived.drape.quality),
           sewn      ? state(r.after->drape.quality)
           : r.after ? r.after->problem

@@ -96,7 +96,7 @@ Image picture_of_pair(const WornPair& pair, const AlterResult& r) {
   const DrapedGarment& worn = r.reference;
   std::vector<Image> cells = {
       view_of(worn.body, worn.mesh, worn.drape.drape, worn.fit, pair.wearer),
-      view_of(r.target_body, worn.mesh, r.before.drape, r.fit_before, pair.body + std::string(" before")),
+      view_of(r.target_body, worn.mesh, r.before->drape, r.fit_before, pair.body + std::string(" before")),
   };
   if (r.after && r.after->problem.empty())
     cells.push_back(

@@ -148,6 +148,25 @@ TEST(TubePipeline, TellsTheTimesOfStagesInOneOrderWithAnyNumberOfThreads) {
   EXPECT_EQ(stages(2), stages(1));
 }
 
+TEST(TubePipeline, DrapesTheGarmentAsItIsOnlyWhereAFileTellsOfIt) {
+  const auto job = [](const std::string& output) {
+    AlterOptions options = small();
+    options.outputs = {output};
+    StageRunner runner(nullptr, nullptr, kAlterStages);
+    const BodyInput slim{.name = "builtin:tube-14-100", .bytes = {}}, stout{.name = "builtin:tube-18-100", .bytes = {}};
+    const AlterResult result = alter_garment(tube_skirt(), slim, stout, options, runner);
+    const auto files = alter_outputs(result, options, job_info(tube_skirt(), slim, stout));
+    const std::string told(files.back().bytes.begin(), files.back().bytes.end());
+    EXPECT_EQ(told.find("\"before\"") != std::string::npos, result.before.has_value());
+    return std::pair(result.before.has_value(), result.altered.target_area);
+  };
+  const auto [draped, area] = job("result.json");
+  const auto [draped_for_ticket, area_of_ticket] = job("ticket.json");
+  EXPECT_TRUE(draped);
+  EXPECT_FALSE(draped_for_ticket);
+  EXPECT_EQ(area_of_ticket, area);
+}
+
 TEST(TubePipeline, ReportsProgressThatNeverFallsAndEndsAtOne) {
   for (const int threads : {1, 2}) {
     double last = 0.0;

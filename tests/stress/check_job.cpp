@@ -163,7 +163,7 @@ void check_result(const Run& run, double stretch_limit, Outcome& outcome) {
     const Body& body;
   };
   std::vector<Part> parts = {{"reference_drape", r.reference.mesh, r.reference.drape, r.reference.body},
-                             {"target_drape_before", r.reference.mesh, r.before, r.target_body},
+                             {"target_drape_before", r.reference.mesh, *r.before, r.target_body},
                              {"target_pattern_drape", r.derived.mesh, r.derived.drape, r.target_body}};
   if (r.after && r.after->problem.empty())
     parts.push_back({"target_drape_after", r.after->mesh, r.after->drape, r.target_body});
@@ -248,8 +248,8 @@ void check_shift(const JobScene& scene, const Run& first, test::Dice& dice, Outc
 
 void check_job(const JobScene& plain, test::Dice& dice, Outcome& outcome) {
   JobScene scene = plain;
-  scene.options.outputs = {"altered_pattern.json", "altered_pattern.svg", "ticket.json", "target_pattern.json",
-                           "reference_drape.obj"};
+  scene.options.outputs = {"altered_pattern.json", "altered_pattern.svg", "ticket.json",
+                           "target_pattern.json",  "reference_drape.obj", "result.json"};
   if (dice.chance(0.3)) scene.options.outputs.push_back("target_after.obj");
   const Run first = run(scene, scene.pattern, scene.reference, scene.target);
   check_result(first, scene.options.stretch_limit, outcome);
