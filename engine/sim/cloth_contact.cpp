@@ -14,10 +14,13 @@ constexpr double kLeastReach = 0.3, kMostReach = 0.75;  // of the mean edge: les
 constexpr double kReachPerMove = 4.0;                   // reach over the largest move between two refreshes
 constexpr double kLeastGap = 1e-9;                      // m: closer features have no direction between them
 constexpr double kPlaneMargin = 0.2;                    // share of the gap that stays free on either side of a plane
-constexpr double kFloor = 0.02;  // share of the thickness below which the repulsion grows no stiffer
-// Shares of the pressure that a vertex or edge near another layer answers for: both layers have vertices, and a layer
-// has three edges a vertex.
-constexpr double kVertexShare = 1.0 / 4, kEdgeShare = 1.0 / 6;
+// Pairs repel that are this many thicknesses apart when they are looked for: the planes keep all others from coming
+// nearer than the thickness before the next look.
+constexpr double kListed = 2.5;
+constexpr double kUnfolded = 0.8;  // share of the distance in the panel at which two of its features count as flat
+// Shares of the pressure that a pair answers for: both layers have vertices, a layer has three edges a vertex, and an
+// edge crosses 2.2 of another layer's.
+constexpr double kVertexShare = 1.0 / 4, kEdgeShare = 1.0 / 6 / 2.2;
 constexpr int kMarkedRings = 1;
 
 Triangles sewn_triangles(const PatternMesh& mesh) {
@@ -60,6 +63,15 @@ ClothContact::ClothContact(const Cloth& cloth, const PatternMesh& mesh, const Cl
       reach_(kMostReach * cloth.mean_edge),
       marked_(static_cast<std::size_t>(cloth.node_count), false) {
   boxes_.resize(static_cast<std::size_t>(triangles_.rows()));
+  centre_.setZero(triangles_.rows(), 3);
+  normal_.setZero(triangles_.rows(), 3);
+  for (int f = 0; f < mesh.triangle_count(); ++f) {
+    const Eigen::Vector3i n = mesh.nodes_of_triangle(f);
+    if (n[0] == n[1] || n[1] == n[2] || n[2] == n[0]) continue;
+    rest_.emplace_back();
+    for (int k = 0; k < 3; ++k) rest_.back().row(k) << mesh.rest.row(mesh.triangles(f, k)), 0;
+    panel_.push_back(mesh.panel_of_triangle[static_cast<std::size_t>(f)]);
+  }
   find_edges();
 }
 
@@ -106,19 +118,19 @@ void ClothContact::refresh(const Points3& nodes) {
   seen_at_ = nodes;
   fresh_ = true;
   stale_ = false;
+  hindered_ = false;
   near_.clear(), pairs_.clear(), planes_.clear();
   find_near(nodes);
   find_piercings(nodes);
   mark_around_piercings();
-  nearest_.assign(static_cast<std::size_t>(cloth_.node_count), std::numeric_limits<double>::infinity());
   for (const auto& [f, g] : near_) {
     find_vertex_pairs(nodes, f, g);
     find_vertex_pairs(nodes, g, f);
     find_edge_pairs(nodes, f, g);
   }
-  share_areas();
   for (const PiercedTriangle& piercing : piercings_) add_push(nodes, piercing);
-  sort_planes();
+  if (options_.mirror) planes_.reflect(options_.mirror->image);
+  planes_.sort();
 }
 
 // Triangles within reach, out of candidates that are searched for anew only when nodes have moved too far.
@@ -133,9 +145,11 @@ void ClothContact::find_near(const Points3& nodes) {
   for (Eigen::Index f = 0; f < triangles_.rows(); ++f) {
     const Vec3 a = nodes.row(triangles_(f, 0)), b = nodes.row(triangles_(f, 1)), c = nodes.row(triangles_(f, 2));
     boxes_[static_cast<std::size_t>(f)] = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+    centre_.row(f) = ((a + b + c) / 3).transpose();
+    normal_.row(f) = (b - a).cross(c - a).transpose();
   }
   for (const auto& [f, g] : candidates_)
-    if (at(boxes_, f).near(at(boxes_, g), reach_)) near_.emplace_back(f, g);
+    if (at(boxes_, f).near(at(boxes_, g), reach_) && !unfolded(f, g)) near_.emplace_back(f, g);
 }
 
 void ClothContact::find_piercings(const Points3& nodes) {
@@ -186,25 +200,28 @@ void ClothContact::find_vertex_pairs(const Points3& nodes, int f, int g) {
     const SurfacePoint nearest = closest_point_on_triangle(p, a, b, c);
     const double distance = std::sqrt(nearest.distance_squared);
     if (distance >= reach_ || distance < kLeastGap) continue;
-    Pair pair;
-    pair.node = {v, corner(g, 0), corner(g, 1), corner(g, 2), v};
-    pair.weight = {1, -nearest.barycentric[0], -nearest.barycentric[1], -nearest.barycentric[2], 0};
-    pair.normal = (p - nearest.point) / distance;
-    pair.of = v;
-    at(nearest_, v) = std::min(at(nearest_, v), distance);
-    // The closest point of a triangle's rim belongs to a neighbour as well: only the nearest such pair repels.
-    pair.pushed = nearest.feature == TriangleFeature::Face;
-    add_pair(pair, distance, pair.normal.dot(nearest.point));
+    const LayerPair::Kind kind = LayerPair::Kind::VertexTriangle;
+    const Vec3 direction = (p - nearest.point) / distance;
+    LayerPair pair{kind, {v, corner(g, 0), corner(g, 1), corner(g, 2)}, direction};
+    add_planes(pair, distance, direction.dot(nearest.point));
+    if (distance >= kListed * options_.thickness) continue;
+    pair.thickness = thickness_of(f, g, [&](const Mat3& one, const Mat3& other) {
+      return closest_point_on_triangle(one.row(k), other.row(0), other.row(1), other.row(2)).distance();
+    });
+    pair.stiffness = kVertexShare * options_.stiffness * cloth_.node_area[v];
+    pairs_.add(pair, nodes);
   }
 }
 
 void ClothContact::find_edge_pairs(const Points3& nodes, int f, int g) {
-  for (int e : at(owned_edges_, f)) {
+  for (int k = 0; k < 3; ++k) {
+    const int e = at(owned_edges_, f)[static_cast<std::size_t>(k)];
     if (e < 0) continue;
     const auto [p, q] = at(edges_, e).node;
     const Vec3 a = nodes.row(p), b = nodes.row(q), low = a.cwiseMin(b), high = a.cwiseMax(b);
     const bool uncertain = at(marked_, p) || at(marked_, q);
-    for (int other : at(owned_edges_, g)) {
+    for (int l = 0; l < 3; ++l) {
+      const int other = at(owned_edges_, g)[static_cast<std::size_t>(l)];
       if (other < 0) continue;
       const auto [r, s] = at(edges_, other).node;
       if (p == r || p == s || q == r || q == s || (uncertain && (at(marked_, r) || at(marked_, s)))) continue;
@@ -213,48 +230,47 @@ void ClothContact::find_edge_pairs(const Points3& nodes, int f, int g) {
       const SegmentPair nearest = closest_points_of_segments(a, b, c, d);
       const double distance = nearest.apart.norm();
       if (distance >= reach_ || distance < kLeastGap) continue;
-      if (nearest.s <= 0 || nearest.s >= 1 || nearest.t <= 0 || nearest.t >= 1) continue;  // a vertex pair has it
-      Pair pair;
-      pair.node = {p, q, r, s, p};
-      pair.weight = {1 - nearest.s, nearest.s, nearest.t - 1, -nearest.t, 0};
-      pair.normal = nearest.apart / distance;
-      pair.of = -1 - e;
-      pair.pushed = true;
-      add_pair(pair, distance, pair.normal.dot(c + nearest.t * (d - c)));
+      LayerPair pair{LayerPair::Kind::EdgeEdge, {p, q, r, s}, nearest.apart / distance};
+      // Where an end is closest, a vertex pair has the planes.
+      if (nearest.s > 0 && nearest.s < 1 && nearest.t > 0 && nearest.t < 1)
+        add_planes(pair, distance, pair.normal.dot(c + nearest.t * (d - c)));
+      if (distance >= kListed * options_.thickness) continue;
+      pair.thickness = thickness_of(f, g, [k, l](const Mat3& one, const Mat3& two) {
+        return closest_points_of_segments(one.row(k), one.row((k + 1) % 3), two.row(l), two.row((l + 1) % 3))
+            .apart.norm();
+      });
+      pair.stiffness = kEdgeShare * options_.stiffness * 0.25 *
+                       (cloth_.node_area[p] + cloth_.node_area[q] + cloth_.node_area[r] + cloth_.node_area[s]);
+      pairs_.add(pair, nodes);
     }
   }
 }
 
-// Planes half-way between the closest points, the lower of which lies at `along` of the normal; repulsion if near.
-void ClothContact::add_pair(const Pair& pair, double distance, double along) {
-  const double middle = along + 0.5 * distance, margin = kPlaneMargin * distance;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const bool above = pair.of >= 0 ? k == 0 : k < 2;
-    if (above)
-      planes_.push_back({pair.node[k], pair.normal, middle + margin});
-    else
-      planes_.push_back({pair.node[k], -pair.normal, -middle + margin});
-  }
-  if (distance > 2 * options_.thickness) return;
-  pairs_.push_back(pair);
-  pairs_.back().offset = distance;
+// Features of one panel may be nearer each other than the thickness as they lie flat.
+template <class Distance>
+double ClothContact::thickness_of(int f, int g, Distance distance_at_rest) const {
+  if (at(panel_, f) != at(panel_, g)) return options_.thickness;
+  return std::min(options_.thickness, kUnfolded * distance_at_rest(at(rest_, f), at(rest_, g)));
 }
 
-// Keeps the pairs that repel and gives each its share of the area round its vertex or edge.
-void ClothContact::share_areas() {
-  std::erase_if(pairs_,
-                [this](const Pair& pair) { return !pair.pushed && pair.offset > 1.0001 * at(nearest_, pair.of); });
-  std::vector<int> on_node(static_cast<std::size_t>(cloth_.node_count), 0), on_edge(edges_.size(), 0);
-  for (const Pair& pair : pairs_) ++(pair.of >= 0 ? at(on_node, pair.of) : at(on_edge, -1 - pair.of));
-  for (Pair& pair : pairs_) {
-    const double area = pair.of >= 0
-                            ? kVertexShare * cloth_.node_area[pair.of] / at(on_node, pair.of)
-                            : kEdgeShare * 0.5 * (cloth_.node_area[pair.node[0]] + cloth_.node_area[pair.node[1]]) /
-                                  at(on_edge, -1 - pair.of);
-    pair.stiffness = options_.stiffness * area;
-    pair.offset = 0;
-    pair.pushed = false;
-  }
+// Two triangles of one panel that are about as far apart as in flat cloth and face the same way: what lies between them
+// is no fold.
+bool ClothContact::unfolded(int f, int g) const {
+  if (at(panel_, f) != at(panel_, g)) return false;
+  const double apart = (centre_.row(f) - centre_.row(g)).squaredNorm();
+  return apart > kUnfolded * kUnfolded * (at(rest_, f) - at(rest_, g)).colwise().mean().squaredNorm() &&
+         normal_.row(f).dot(normal_.row(g)) > 0;
+}
+
+// Planes half-way between the closest points, the lower of which lies at `along` of the normal.
+void ClothContact::add_planes(const LayerPair& pair, double distance, double along) {
+  const double middle = along + 0.5 * distance, margin = kPlaneMargin * distance;
+  const std::size_t above = pair.kind == LayerPair::Kind::VertexTriangle ? 1 : 2;
+  for (std::size_t k = 0; k < 4; ++k)
+    if (k < above)
+      planes_.add(pair.node[k], pair.normal, middle + margin);
+    else
+      planes_.add(pair.node[k], -pair.normal, -middle + margin);
 }
 
 // Direction in which to move the edge against the triangle so that their line of intersection gets shorter.
@@ -286,7 +302,7 @@ Vec3 ClothContact::shortening(const Points3& nodes, const PiercedTriangle& pierc
 
 void ClothContact::add_push(const Points3& nodes, const PiercedTriangle& piercing) {
   const Edge& edge = at(edges_, piercing.edge);
-  Pair pair;
+  LayerPush pair;
   for (int k = 0; k < 3; ++k) {
     at(pair.node, k + 2) = corner(piercing.triangle, k);
     at(pair.weight, k + 2) = -piercing.barycentric[k];
@@ -296,81 +312,11 @@ void ClothContact::add_push(const Points3& nodes, const PiercedTriangle& piercin
   pair.normal = shortening(nodes, piercing);
   pair.stiffness = options_.push_stiffness * 0.5 * (cloth_.node_area[edge.node[0]] + cloth_.node_area[edge.node[1]]);
   pair.offset = options_.push;
-  pair.pushed = true;
-  pair.of = -1 - piercing.edge;
-  pairs_.push_back(pair);  // its points coincide: n . sum(weight x) is 0 here
-}
-
-void ClothContact::sort_planes() {
-  std::stable_sort(planes_.begin(), planes_.end(), [](const Plane& a, const Plane& b) { return a.node < b.node; });
-}
-
-// dE/dg of the repulsion for unit stiffness, with E and the second derivative.
-double ClothContact::slope(double gap, double& energy, double& curvature) const {
-  const double d = options_.thickness, floor = kFloor * d, g = std::max(gap, floor);
-  if (gap >= d) return energy = curvature = 0;
-  const double slope_there = -d * (d - g) / g;
-  curvature = d * d / (g * g);
-  energy = d * (d * std::log(d / g) - (d - g)) + (gap - g) * (slope_there + 0.5 * curvature * (gap - g));
-  return slope_there + curvature * (gap - g);
-}
-
-double ClothContact::gap_of(const Pair& pair, const Points3& nodes) const {
-  Vec3 between = Vec3::Zero();
-  for (std::size_t k = 0; k < 5; ++k) between += pair.weight[k] * nodes.row(pair.node[k]).transpose();
-  return pair.normal.dot(between);
-}
-
-double ClothContact::energy_gradient(const Points3& nodes, Points3& gradient) const {
-  double total = 0;
-  for (const Pair& pair : pairs_) {
-    const double gap = gap_of(pair, nodes);
-    double energy = 0, curvature = 0, force = 0;
-    if (pair.pushed) {
-      force = std::min(0.0, gap - pair.offset);
-      energy = 0.5 * force * force;
-    } else {
-      force = slope(gap, energy, curvature);
-    }
-    if (force == 0) continue;
-    total += pair.stiffness * energy;
-    for (std::size_t k = 0; k < 5; ++k)
-      gradient.row(pair.node[k]) += (pair.stiffness * force * pair.weight[k] * pair.normal).transpose();
-  }
-  return total;
-}
-
-double ClothContact::stiffness_of(const Pair& pair, const Points3& nodes) const {
-  const double gap = gap_of(pair, nodes);
-  if (pair.pushed) return gap < pair.offset ? pair.stiffness : 0.0;
-  double curvature = 0, ignored = 0;
-  slope(gap, ignored, curvature);
-  return pair.stiffness * curvature;
-}
-
-void ClothContact::add_hessian(const Points3& nodes, BlockHessian& hessian) const {
-  for (const Pair& pair : pairs_) {
-    const Mat3 block = stiffness_of(pair, nodes) * pair.normal * pair.normal.transpose();
-    for (std::size_t i = 0; i < 5; ++i)
-      for (std::size_t j = 0; j <= i; ++j)
-        if (const double weights = pair.weight[i] * pair.weight[j]; weights != 0)
-          hessian.add(pair.node[i], pair.node[j], weights * block);
-  }
-}
-
-void ClothContact::add_stiffness(const Points3& nodes, std::vector<Eigen::Triplet<double>>& entries) const {
-  for (const Pair& pair : pairs_) {
-    const double stiffness = stiffness_of(pair, nodes);
-    if (stiffness <= 0) continue;
-    for (std::size_t i = 0; i < 5; ++i)
-      for (std::size_t j = 0; j < 5; ++j)
-        if (const double weights = pair.weight[i] * pair.weight[j]; pair.node[i] >= pair.node[j] && weights != 0)
-          entries.emplace_back(pair.node[i], pair.node[j], stiffness * weights);
-  }
+  pairs_.add(pair);  // its points coincide: n . sum(weight x) is 0 here
 }
 
 void ClothContact::limit(const Points3& from, Points3& to) {
-  const double ball = 0.49 * reach_;
+  const double ball = 0.49 * (reach_ - options_.thickness);  // what is out of reach cannot begin to repel
   for (Eigen::Index i = 0; i < to.rows(); ++i) {
     const Vec3 seen = seen_at_.row(i), away = to.row(i).transpose() - seen;
     const double far = away.squaredNorm();
@@ -378,25 +324,7 @@ void ClothContact::limit(const Points3& from, Points3& to) {
     stale_ = true;
     to.row(i) = (seen + ball / std::sqrt(far) * away).transpose();
   }
-  for (std::size_t i = 0; i < planes_.size();) {
-    std::size_t end = i;
-    const int node = planes_[i].node;
-    const Vec3 start = from.row(node);
-    Vec3 p = to.row(node);
-    for (; end < planes_.size() && planes_[end].node == node; ++end) {
-      const double beyond = planes_[end].normal.dot(p) - planes_[end].offset;
-      if (beyond < 0) p -= beyond * planes_[end].normal;
-    }
-    double share = 1;  // where planes meet, what is left is shortened as a whole
-    for (std::size_t k = i; k < end; ++k) {
-      const double ahead = planes_[k].normal.dot(p) - planes_[k].offset;
-      if (ahead >= 0) continue;
-      const double here = planes_[k].normal.dot(start) - planes_[k].offset;
-      share = std::min(share, std::max(0.0, here / std::max(here - ahead, 1e-300)));
-    }
-    to.row(node) = (start + share * (p - start)).transpose();
-    i = end;
-  }
+  if (planes_.limit(from, to)) hindered_ = true;
 }
 
 }  // namespace toile

@@ -16,7 +16,7 @@ double DrapeEnergy::evaluate(const Points3& nodes, Points3& gradient) {
   double energy = membrane_energy_gradient(cloth_, nodes, gradient);
   energy += bending(nodes, gradient) + gravity(nodes, gradient) + ties(nodes, gradient);
   if (contact_) energy += contact_->energy_gradient(nodes, gradient);
-  if (cloth_contact) energy += cloth_contact->energy_gradient(nodes, gradient);
+  if (cloth_contact) energy += cloth_contact->pairs().energy_gradient(nodes, gradient);
   if (mirror) symmetrise(*mirror, gradient);
   return energy;
 }
@@ -30,7 +30,7 @@ void DrapeEnergy::evaluate_hessian(const Points3& nodes, Curvature curvature, Bl
       hessian.add(hold.node, hold.node, Vec3(0, hold.stiffness, 0).asDiagonal().toDenseMatrix());
   for (const Pin& pin : pins) hessian.add(pin.node, pin.node, pin.stiffness * Mat3::Identity());
   if (contact_) contact_->add_hessian(nodes, curvature, hessian);
-  if (cloth_contact) cloth_contact->add_hessian(nodes, hessian);
+  if (cloth_contact) cloth_contact->pairs().add_hessian(nodes, hessian);
 }
 
 double DrapeEnergy::residual(const Points3& gradient) const {

@@ -28,8 +28,8 @@ double calm_residual(const DrapeEnergy& energy, const Points3& gradient) {
   return std::sqrt(squares.head(calm).mean()) / energy.cloth().mean_node_weight();
 }
 
-// Layers that are far apart are looked for that many times more rarely.
-constexpr int kIdle = 2;
+// Share of the reach of the last look for pairs of layers that moves may use up before the next one.
+constexpr double kUsedReach = 0.3;
 
 class Relaxation {
  public:
@@ -58,7 +58,7 @@ class Relaxation {
   // Layers that touch move together easily, apart with difficulty.
   SparseMatrix layers(const Points3& nodes) const {
     std::vector<Eigen::Triplet<double>> entries;
-    energy_.cloth_contact->add_stiffness(nodes, entries);
+    energy_.cloth_contact->pairs().add_stiffness(nodes, entries);
     SparseMatrix matrix(nodes.rows(), nodes.rows());
     matrix.setFromTriplets(entries.begin(), entries.end());
     return kLayerShare * matrix;
@@ -119,12 +119,17 @@ class Relaxation {
 
   void look_around(QuasiNewton& minimiser, const QuasiNewton::Energy& evaluate) {
     ClothContact* self = energy_.cloth_contact;
-    if (!self) return;
-    const int wait = self->planes() == 0 ? kIdle * options_.look_around : options_.look_around;
-    if (!self->stale() && result_.iterations - looked_at_ < wait) return;
+    if (!self || !outdated(*self, minimiser.nodes())) return;
     looked_at_ = result_.iterations;
     self->refresh(minimiser.nodes());
     minimiser.refresh(evaluate);
+  }
+
+  // Planes that stop a node slow down all of the cloth: they are put where the layers are now before long.
+  bool outdated(const ClothContact& self, const Points3& nodes) const {
+    const int since = result_.iterations - looked_at_;
+    if (self.stale() || (self.hindered() && since >= options_.look_soon)) return true;
+    return since >= options_.look_around && (self.piercings() > 0 || self.moved(nodes) > kUsedReach * self.reach());
   }
 
   void judge(const QuasiNewton& minimiser, bool whole_round) {

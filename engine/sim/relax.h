@@ -14,7 +14,8 @@ struct RelaxOptions {
   int first_round = 100;       // iterations with the friction of the start
   int round = 50;              // iterations after which friction is frozen anew and the settling is looked at
   int refactor = 100;          // iterations after which the matrix takes up the present contacts
-  int look_around = 10;        // iterations after which self-contact looks for its pairs anew
+  int look_around = 10;        // iterations for which self-contact keeps its pairs; longer where little has moved
+  int look_soon = 2;           // the same where a pair has stopped a node
   double stop_residual = 0.3;  // of a mean node weight (DrapeEnergy::residual), with friction just frozen
   // Of all nodes but the worst fiftieth: a knot of a few crossing layers may push for ever without moving anything.
   double settled_residual = 2.6;          // below it and without movement the drape counts as settled

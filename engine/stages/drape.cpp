@@ -254,7 +254,9 @@ class Draper {
     energy.mirror = mirror_ ? &*mirror_ : nullptr;
     std::optional<ClothContact> layers;
     if (options_.self_contact != SelfContact::Off) {
-      layers.emplace(cloth_, mesh_, ClothContactOptions{});
+      ClothContactOptions layers_options;
+      layers_options.mirror = energy.mirror;
+      layers.emplace(cloth_, mesh_, layers_options);
       energy.cloth_contact = &*layers;
     }
     if (options_.solver == SolverKind::Pbd) return average_targets(energy, start), false;
@@ -293,6 +295,7 @@ class Draper {
   void refine(DrapeEnergy& energy, const Points3& start) {
     NewtonOptions options;
     options.stop_residual = options_.newton_residual;
+    if (energy.cloth_contact) energy.cloth_contact->hold(start);
     const NewtonResult refined = newton(energy, start, options, progress_);
     result_.drape.nodes = refined.nodes;
     DrapeDiagnostics& d = result_.diagnostics;

@@ -20,7 +20,7 @@ struct DrapeOptions {
   double thickness = 0.003;  // distance of the cloth's nodes from the body, m, 0..0.05, to which the chord sag is added
   double sag_radius = 0.06;  // m, > 0: h^2 / (8 R) is added to the thickness, R the smallest limb radius
   double contact_stiffness = 2e6;  // N/m^3, > 0
-  int iterations = 2000;           // of the relaxation, at most, 0..100000; 300 settle the placement
+  int iterations = 3000;           // of the relaxation, at most, 0..100000; 300 settle the placement
   double stop_residual = 0.3;      // residual at which it stops, in mean node weights, > 0
   // The same where nothing moves any more, of all nodes but the worst fiftieth (see Rest::Settled); 0: only
   // stop_residual counts. The error is in proportion to the residual, and that of 1.5 is below 1 mm and 0.1 % of

@@ -54,7 +54,7 @@ struct TwoSheets {
 test::EnergyFunction energy_of(const ClothContact& contact) {
   return [&contact](const Points3& x, Points3& g) {
     g.setZero();
-    return contact.energy_gradient(x, g);
+    return contact.pairs().energy_gradient(x, g);
   };
 }
 
@@ -69,6 +69,21 @@ TEST(ClothContact, GradientIsTheDerivativeForNearAndForTouchingLayers) {
     test::expect_gradient(energy_of(contact), nodes + test::random_points(s.garment.mesh.node_count, 1e-4, 3), 1e-8,
                           1e-5);
   }
+}
+
+TEST(ClothContact, LookingForPairsAnewDoesNotChangeTheEnergyOfLayersThatDoNotPierce) {
+  const TwoSheets s;
+  ClothContact contact(s.cloth, s.garment.mesh, {});
+  const Points3 nodes = s.apart(0.0012);
+  contact.refresh(nodes);
+  Points3 moved = nodes + test::random_points(s.garment.mesh.node_count, 1e-3, 5), before = nodes, after = nodes;
+  contact.limit(nodes, moved);
+  ASSERT_GT((moved - nodes).norm(), 1e-3);
+  const double energy = energy_of(contact)(moved, before);
+  contact.refresh(moved);
+  ASSERT_GT(energy, 0);
+  EXPECT_NEAR(energy_of(contact)(moved, after), energy, 1e-3 * energy);
+  EXPECT_LT((after - before).norm(), 1e-3 * before.norm());
 }
 
 TEST(ClothContact, GradientIsTheDerivativeWherePiercedClothIsDrawnApart) {
@@ -87,14 +102,15 @@ TEST(ClothContact, HessianIsTheDerivativeOfTheGradient) {
   Points3 nodes = s.apart(0.0012);
   nodes(60, 1) = 0.004;
   contact.refresh(nodes);
+  contact.hold(nodes);
   BlockHessian hessian(s.cloth);
   hessian.set_zero();
-  contact.add_hessian(nodes, hessian);
+  contact.pairs().add_hessian(nodes, hessian);
   const double step = 1e-8;
   const Points3 along = test::random_points(s.garment.mesh.node_count, 1, 21);
   Points3 forward = Points3::Zero(nodes.rows(), 3), back = forward;
-  contact.energy_gradient(nodes + step * along, forward);
-  contact.energy_gradient(nodes - step * along, back);
+  contact.pairs().energy_gradient(nodes + step * along, forward);
+  contact.pairs().energy_gradient(nodes - step * along, back);
   const Points3 product = hessian.times(along);
   ASSERT_GT(product.norm(), 1);
   EXPECT_LT((product - (forward - back) / (2 * step)).norm(), 1e-3 * product.norm());
@@ -106,7 +122,7 @@ TEST(ClothContact, LayersFurtherApartThanTheThicknessAreLeftAlone) {
   const Points3 nodes = s.apart(0.0016);
   contact.refresh(nodes);
   Points3 gradient = Points3::Zero(nodes.rows(), 3);
-  EXPECT_EQ(contact.energy_gradient(nodes, gradient), 0);
+  EXPECT_EQ(contact.pairs().energy_gradient(nodes, gradient), 0);
   contact.refresh(s.apart(0.1));
   EXPECT_LT(contact.planes(), 10);
 }
@@ -119,11 +135,12 @@ TEST(ClothContact, PressureBetweenLayersIsThatOfTheProfileWhateverTheMesh) {
   const Points3 nodes = s.apart(gap);
   contact.refresh(nodes);
   Points3 gradient = Points3::Zero(nodes.rows(), 3);
-  contact.energy_gradient(nodes, gradient);
+  contact.pairs().energy_gradient(nodes, gradient);
   const double force = gradient.topRows(121).col(1).sum();  // on the lower sheet
   const double pressure = options.stiffness * d * (d - gap) / gap;
   const double shared_area = 0.035;
-  EXPECT_NEAR(force, pressure * shared_area, 0.3 * pressure * shared_area);
+  EXPECT_GT(force, 0.9 * pressure * shared_area);
+  EXPECT_LT(force, 1.5 * pressure * shared_area);  // near the rims of triangles the pairs of both sides count
 }
 
 // However far the sheets are thrown through each other, what the limit leaves of the move does not let them cross.

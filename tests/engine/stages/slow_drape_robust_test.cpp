@@ -72,10 +72,18 @@ TEST_P(SlowDisturbedDrape, GarmentAThirdTooSmallSettlesOutsideTheBody) {
   expect_settled(drape_from(dressed_.pattern, small, dressed_.body, worn, dressed_.options, nullptr));
 }
 
+// Worn, then suddenly cut from a larger size: it slides down until it is caught, and hangs in folds.
+TEST_P(SlowDisturbedDrape, GarmentHalfAgainAsLargeSettles) {
+  const Drape worn = drape_of(dressed_).drape;
+  PatternMesh large = dressed_.mesh;
+  large.rest *= 1.5;
+  const DrapeResult result = drape_from(dressed_.pattern, large, dressed_.body, worn, dressed_.options, nullptr);
+  expect_settled(result);
+  EXPECT_EQ(result.quality.crossing_pairs, 0);
+}
+
 TEST_P(SlowDisturbedDrape, ClothTenTimesStifferOrSofterSettles) {
   for (double factor : {10.0, 0.1}) {
-    // The layers between the legs, pressed ten times harder, are still at a residual of 7 after 2,000 iterations.
-    if (factor > 1 && std::string(GetParam()) == "pants_straight") continue;
     test::Dressing d = dressed_;
     d.pattern.fabric.weft_stiffness *= factor;
     d.pattern.fabric.warp_stiffness *= factor;
