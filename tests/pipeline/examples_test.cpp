@@ -130,12 +130,9 @@ TEST(SlowShippedExamples, TheTrousersAreCutAnewForAChildOutOfTheirOwnCloth) {
 }
 
 TEST(SlowShippedExamples, AreDerivedForFiveMannequins) {
-  constexpr int kTriangles = 2000, kOfTrousers = 4000;  // legs that touch each other need finer cloth to come to rest
-  for (const Example& example : kExamples) {
-    const int triangles = std::string(example.name) == "trousers" ? kOfTrousers : kTriangles;
+  for (const Example& example : kExamples)
     for (const char* target : test::kFiveMannequins)
-      if (std::string(target) != example.wearer) expect_derived(example, target, triangles);
-  }
+      if (std::string(target) != example.wearer) expect_derived(example, target, 2000);
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ TEST_P(SlowDrapeOfGarment, FromFlatHangsWhereItBelongs) {
   const test::Dressing d = test::dress(GetParam(), 4300);
   const DrapeResult result = drape(d.pattern, d.mesh, d.body, d.options, nullptr);
   expect_worn(result, 0);
+  EXPECT_NE(result.quality.rest, Rest::NotAtRest) << result.quality.settling_move;
+  EXPECT_LE(result.quality.crossing_share, 0.005);
   const test::Place place = test::expected_place(GetParam());
   EXPECT_NEAR(result.drape.nodes.col(1).minCoeff(), place.lowest, 0.010);
   EXPECT_NEAR(test::waist_height(d.pattern, d.mesh, result.drape), place.waist, 0.010);  // both 0 without a waist line
