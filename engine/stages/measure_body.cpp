@@ -13,7 +13,7 @@ namespace toile {
 namespace {
 
 constexpr double kFineStep = 0.001;   // m
-constexpr double kLevelStep = 0.002;  // m, between slices when the largest or least girth is sought
+constexpr double kLevelStep = 0.002;  // m, at most, between slices when the largest or least girth is sought
 constexpr double kThighBelow = 0.03;  // m under the crotch
 // Fractions of the height: how far the crotch is sought from the skeleton's.
 constexpr double kCrotchBelow = 0.02, kCrotchAbove = 0.012;
@@ -62,10 +62,12 @@ class Tape {
     return y;
   }
 
-  // The largest (sign 1) or least (sign -1) girth of the trunk between two levels.
+  // The largest (sign 1) or least (sign -1) girth of the trunk between two levels, both of them included.
   Girth extreme_girth(double low, double high, double sign) const {
     Girth best;
-    for (double y = low; y <= high + 1e-9; y += kLevelStep) {
+    const int steps = std::max(1, static_cast<int>(std::ceil((high - low) / kLevelStep)));
+    for (int i = 0; i <= steps; ++i) {
+      const double y = low + (high - low) * i / steps;
       const double length = slices_.middle_girth(y);
       if (length > 0 && (best.length == 0 || sign * length > sign * best.length)) best = {y, length};
     }

@@ -17,7 +17,7 @@ struct MeasureScanResult {
   TriangleMesh skin;  // the mannequin in the shape of the scan: closed, smooth, every point known
   RegistrationReport registration;
   // Measures that hang on a crown or a crotch that is cut away in the scan, told from the mannequin's: to about 5 mm,
-  // or 10 where a scanner has joined the thighs under it.
+  // or 7 where a scanner has joined the thighs under it.
   std::vector<std::string> estimated;
 };
 
