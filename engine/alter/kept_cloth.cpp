@@ -12,6 +12,7 @@ namespace toile {
 namespace {
 
 constexpr double kLeastRun = 1e-3;  // m: shorter runs of border do not hold the cloth
+constexpr double kCrossing = 0.02;  // m: from a corner to where the two curves that hold it cross, at most
 constexpr double kLongest = 1.3;    // of the edge length: longer borders are divided for the mesh
 
 // A sheet's faces between two layouts of its vertices.
@@ -90,6 +91,13 @@ PieceCloth mesh_part(const AlteredParts& parts, const AlteredPart& part, double 
   return cloth;
 }
 
+// Whether two curves that hold a corner cross near it: where nearly parallel ones do says nothing.
+bool cross_near(const SideCurve& a, const SideCurve& b, const Vec2& corner) {
+  const SideFoot first = a.closest(corner), second = b.closest(corner);
+  const double sine = std::abs(first.normal.x() * second.normal.y() - first.normal.y() * second.normal.x());
+  return (corner - first.point).norm() + (corner - second.point).norm() < kCrossing * sine;
+}
+
 // Hangs every run of border that one pass made on the curve where that pass has it, to slide there.
 void attach_borders(const AlteredPart& part, const PieceCloth& cloth, const SheetMap& inserted, const SheetMap& removed,
                     Sheet& sheet) {
@@ -118,7 +126,11 @@ void attach_borders(const AlteredPart& part, const PieceCloth& cloth, const Shee
     sheet.wanted_sides.emplace_back(std::move(curve));
     for (const int v : vertices) {
       SheetVertex& vertex = sheet.vertices[static_cast<std::size_t>(v)];
-      vertex.anchors[vertex.anchors[0].side < 0 ? 0 : 1] = {side, 0.0, true};
+      if (vertex.anchors[0].side < 0)
+        vertex.anchors[0] = {side, 0.0, true};
+      else if (cross_near(sheet.wanted_sides[static_cast<std::size_t>(vertex.anchors[0].side)],
+                          sheet.wanted_sides[static_cast<std::size_t>(side)], vertex.now))
+        vertex.anchors[1] = {side, 0.0, true};
     }
   }
 }

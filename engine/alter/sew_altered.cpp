@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "engine/alter/kept_cloth.h"
@@ -18,6 +19,9 @@ constexpr double kLeastTurnIn = 1e-3;      // m: a cut is opened by this much ev
 constexpr double kNotchedSeam = 0.06;      // m: longer new seams get a notch in their middle
 constexpr double kTurnedInArea = 1e-4;     // m^2: a piece larger by more was widened for what is turned in
 constexpr double kLeastEdge = 3e-4;        // m: shorter chains are left out
+// Plies of one panel that differ by more than both cannot be eased onto each other: the wanted panel has its darts
+// elsewhere than the cloth, and strips across their mouths would gather it.
+constexpr double kMostEased = 0.33, kMostEasedLength = 8e-3;  // of the longer ply, and m
 
 struct DrawnPiece {
   PieceBorder border;
@@ -54,6 +58,7 @@ class Sewing {
     for (std::size_t i = 0; i < drawn_.size(); ++i) add_piece(i);
     sew_lines();
     sew_neighbours();
+    if (!all_meet()) return std::move(sewn_);
     add_notches();
     add_pins();
     return std::move(sewn_);
@@ -65,6 +70,7 @@ class Sewing {
   std::string try_panel(int p, const AlteredParts& parts, bool recut);
   void draw_pieces();
   bool all_sound();
+  bool all_meet();
   void start_pattern();
   void add_piece(std::size_t i);
   std::string name_of(std::size_t i) const;
@@ -188,8 +194,8 @@ void Sewing::draw_pieces() {
   }
 }
 
-// Small and narrow pieces can be nothing, or touch themselves, once they are drawn: their panel is cut anew, and where that is no cure either,
-// nothing is sewn.
+// Small and narrow pieces can be nothing, or touch themselves, once they are drawn: their panel is cut anew, and where
+// that is no cure either, nothing is sewn.
 bool Sewing::all_sound() {
   bool sound = true;
   for (const DrawnPiece& drawn : drawn_) {
@@ -202,6 +208,28 @@ bool Sewing::all_sound() {
   }
   if (!sound) sewn_.pieces.clear();
   return sound;
+}
+
+// Pieces of a panel whose edges are far from alike where they are sewn to each other: the panel is cut anew.
+bool Sewing::all_meet() {
+  std::map<std::pair<int, int>, std::pair<double, double>> plies;
+  for (std::size_t s = 0; s < sewn_.seams.size(); ++s) {
+    const int a = sewn_.pattern.seams[s].a.panel.value, b = sewn_.pattern.seams[s].b.panel.value;
+    if (sewn_.pieces[static_cast<std::size_t>(a)].panel != sewn_.pieces[static_cast<std::size_t>(b)].panel) continue;
+    auto& [first, second] = plies[std::minmax(a, b)];
+    first += a <= b ? sewn_.seams[s].length_a : sewn_.seams[s].length_b;
+    second += a <= b ? sewn_.seams[s].length_b : sewn_.seams[s].length_a;
+  }
+  bool meet = true;
+  for (const auto& [pieces, lengths] : plies) {
+    const int p = sewn_.pieces[static_cast<std::size_t>(pieces.first)].panel;
+    const auto [shorter, longer] = std::minmax(lengths.first, lengths.second);
+    if (longer - shorter <= std::max(kMostEased * longer, kMostEasedLength)) continue;
+    if (pattern_.panels[static_cast<std::size_t>(p)].locked) continue;
+    if (recut_.emplace(p, CutAnew{"the edges of its pieces do not meet", std::nullopt}).second) meet = false;
+  }
+  if (!meet) sewn_.pieces.clear();
+  return meet;
 }
 
 void Sewing::start_pattern() {

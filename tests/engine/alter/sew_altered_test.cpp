@@ -2,11 +2,14 @@
 // The altered garment as a pattern: areas add up, every seam joins what it should, and the cloth is the original's.
 #include "engine/alter/sew_altered.h"
 
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include "engine/geometry/curve.h"
 #include "engine/geometry/inner_point.h"
 #include "engine/stages/import_pattern.h"
+#include "engine/stages/mesh_panels.h"
 #include "tests/engine/alter/altered_grid.h"
 
 namespace toile {
@@ -135,6 +138,39 @@ TEST(SewAltered, AsksForNewClothWhereThePanelsOwnIsTooSmall) {
   EXPECT_FALSE(result.sewn.pieces.at(0).own_cloth);
   EXPECT_EQ(result.ticket.operations.at(0).fabric, FabricNeed::NeedsFabric);
   EXPECT_LT(result.area_imbalance, 1e-9);
+}
+
+// A panel with a dart in its lower edge; the target has the dart farther to the right and is longer below its mouth.
+TEST(SewAltered, AStripAcrossADartThatMovesMeetsTheClothOrThePanelIsCutAnew) {
+  Pattern pattern;
+  Panel panel;
+  panel.name = "back";
+  panel.corners = {{0, 0}, {0.17, 0}, {0.2, 0.15}, {0.23, 0}, {0.5, 0}, {0.5, 0.4}, {0, 0.4}};
+  panel.edges.resize(panel.corners.size());
+  pattern.panels = {panel};
+  pattern.seams = {{{PanelId(0), 1}, {PanelId(0), 2}, false}};
+  const PatternMesh mesh = mesh_panels(pattern, {1500, {}});
+  for (const double moved : {0.0, 0.12}) {
+    Points2 target = mesh.rest;
+    for (Eigen::Index v = 0; v < target.rows(); ++v) {
+      const double x = target(v, 0), y = target(v, 1);
+      const double near = std::max(0.0, 1.0 - std::abs(x - 0.2) / 0.19) * std::max(0.0, 1.0 - y / 0.4);
+      target(v, 0) = x + moved * near;
+      target(v, 1) = y < 0.06 ? y - 0.08 * (1.0 - y / 0.06) : y;
+    }
+    const AlterPatternResult result = alter_pattern(pattern, mesh, target, {});
+    const SewnPattern& sewn = result.sewn;
+    ASSERT_FALSE(sewn.pieces.empty()) << moved;
+    std::map<std::pair<int, int>, Vec2> plies;
+    for (std::size_t k = 0; k < sewn.seams.size(); ++k) {
+      const int a = sewn.pattern.seams[k].a.panel.value, b = sewn.pattern.seams[k].b.panel.value;
+      const Vec2 lengths(sewn.seams[k].length_a, sewn.seams[k].length_b);
+      plies.emplace(std::minmax(a, b), Vec2::Zero()).first->second += a <= b ? lengths : Vec2(lengths.reverse());
+    }
+    for (const auto& [pieces, lengths] : plies)
+      EXPECT_LE(lengths.maxCoeff() - lengths.minCoeff(), std::max(8e-3, 0.33 * lengths.maxCoeff())) << moved;
+    EXPECT_EQ(sewn.pieces[0].recut, moved > 0.0) << moved;  // a dart that stays is no reason
+  }
 }
 
 TEST(SewAltered, SewsADartIntoThePanel) {
