@@ -15,9 +15,9 @@
 namespace toile {
 namespace {
 
-// Right maps of the bodies and scans of shared/data reach .5-5.8 mm, 12-23 % and .977; turned, headless and one-armed
+// Right maps of the bodies and scans of shared/data reach .5-15.1 mm, 12-23 % and .977; turned, headless and one-armed
 // ones 25-115 mm, 59-124 % and .89-.976. The limits stand between.
-constexpr double kScanWarned = 0.008, kScanRefused = 0.015;  // m, p95
+constexpr double kScanWarned = 0.008, kScanRefused = 0.020;  // m, p95
 constexpr double kScanTailWarned = 0.015;                    // m, p99 without hands
 constexpr double kStretchWarned = 0.35, kStretchRefused = 0.5;
 constexpr double kFacingRefused = 0.95;

@@ -4,8 +4,8 @@
 //
 // The bottom of a fold is not believed where, 15 mm out from it, the skin at both sides is less than 30 mm apart: all
 // that could see it comes through a right angle. Walls of the fold are kept; they are seen from across.
-// Judged on imitated scans whose truth is known: of the skin between the legs that lies over 4 mm off the body this
-// finds four fifths, and next to nothing else. Metres, normalised frame.
+// Judged on imitated scans whose truth is known: of the vertices between the legs that lie over 4 mm off the body this
+// finds about seven in ten, at the cost of some thirty good ones deep in the fold of a scan. Metres, normalised frame.
 #pragma once
 
 #include "engine/core/body.h"
