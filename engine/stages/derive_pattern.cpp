@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 #include "engine/geometry/unfold_triangles.h"
@@ -26,6 +27,8 @@ struct StageSweeps {
   int first, later;
 };
 constexpr StageSweeps kSweeps{20, 15}, kNearSweeps{10, 10};
+// Of a panel's fit energy, that it may cost to lay the panel over the original: half a percent of the strain left.
+constexpr double kTurnShare = 0.01;
 constexpr double kLeastDeterminant = 0.05;  // of a triangle whose outline leaves it room: no flip, no sliver
 
 class Derivation {
@@ -53,6 +56,8 @@ class Derivation {
   void global_step(double weight);
   void gather_forces(double weight);
   double fit_energy() const;
+  double fit_energy_of_turned(const PanelRange& panel);
+  void lay_over_the_original(const PanelRange& panel);
   double rough_energy() const;
   void finish();
 
@@ -212,6 +217,8 @@ DerivePatternResult Derivation::whole(const Pattern& pattern, const Points2* nea
       report(progress_, "derive", 1.0 - static_cast<double>(left()) / options_.max_sweeps);
       result_.converged = run_stage(weight, std::min(left(), sweeps.later));
     }
+  for (std::size_t p = 0; p < mesh_.panels.size(); ++p)
+    if (!panel_locked(pattern, mirrors_, static_cast<int>(p))) lay_over_the_original(mesh_.panels[p]);
   finish();
   result_.seam_residual = edges_->side_residual(result_.rest);
   return std::move(result_);
@@ -228,6 +235,40 @@ DerivePatternResult Derivation::inside(const Points2& outline) {
   unfold_triangles(gradients_, held_, kLeastDeterminant, result_.rest);
   finish();
   return std::move(result_);
+}
+
+// With the rotations on the drape's side as suits the panel best.
+double Derivation::fit_energy_of_turned(const PanelRange& panel) {
+  double sum = 0.0;
+  for (int f = panel.triangle_begin; f < panel.triangle_end; ++f) {
+    const Mat2 gradient = gradients_.of(result_.rest, f);
+    wanted_.turn(f, gradient);
+    sum += gradients_.area[f] * (gradient - wanted_.wanted(f)).squaredNorm();
+  }
+  return sum;
+}
+
+// Where cloth is stretched alike both ways the fit hardly tells which way the grain lies in a panel, and the sweeps
+// leave it turned by a fraction of a degree. The panel is turned back to where it lies best over the original, as far
+// as that costs next to no fit.
+void Derivation::lay_over_the_original(const PanelRange& panel) {
+  const auto rows = [&](auto& points) {
+    return points.middleRows(panel.vertex_begin, panel.vertex_end - panel.vertex_begin);
+  };
+  const Eigen::RowVector2d middle = rows(result_.rest).colwise().mean();
+  const Points2 found = rows(result_.rest).rowwise() - middle;
+  const Points2 original = rows(mesh_.rest).rowwise() - rows(mesh_.rest).colwise().mean();
+  const double along = found.cwiseProduct(original).sum(),
+               across = found.col(0).dot(original.col(1)) - found.col(1).dot(original.col(0));
+  const auto turn_by = [&](double angle) {
+    const Eigen::Rotation2Dd turn(angle);
+    rows(result_.rest) = (found * turn.toRotationMatrix().transpose()).rowwise() + middle;
+  };
+  const double angle = std::atan2(across, along), before = fit_energy_of_turned(panel);
+  turn_by(angle);
+  const double rise = fit_energy_of_turned(panel) - before,
+               allowed = kTurnShare * before + kRelativeFloor * gradients_.area.sum();
+  if (rise > allowed) turn_by(angle * std::sqrt(allowed / rise));  // the rise is as the angle's square
 }
 
 void Derivation::finish() {

@@ -8,6 +8,7 @@
 // P_s X_s the smooth part of a side's vertices.
 //   local step: a rotation R_f per triangle on the drape's side, a wanted vector t_e per edge
 //   global step: one solve with a matrix factored once per lambda; lambda grows from 0, warm started
+// At the end panels are turned to lie over the original as fits best, as far as the fit hardly tells how they are turned.
 // Mirror images (GarmentMirrors) stay mirror images: the energy is minimised over symmetric patterns alone.
 // Source: [Eggler2024, Sec. 5.1 and 8], [LZX*08].  Lengths in metres.
 #pragma once

@@ -196,6 +196,16 @@ TEST(DerivePattern, Case6ClosesTheSeamLengthsOnABelly) {
   EXPECT_LT(with, kSeam);
 }
 
+TEST(DerivePattern, GrainStaysAsItWasWhereTheFitDoesNotTell) {
+  const GridGarment sheet = grid_garment({{"sheet", 0.4, 0.6, 8, 12, 0.0}}, {});
+  const Drape flat = draped(sheet, sheet.mesh.rest, [](int, const Vec2& p) { return Vec3(p.x(), p.y(), 0.0); });
+  const FittingMap fit = build_fitting_map(sheet.mesh, flat);
+  const Points2 turned = sheet.mesh.rest * Eigen::Rotation2Dd(0.01).toRotationMatrix().transpose();
+  const DerivePatternResult result = derive_pattern(sheet.pattern, sheet.mesh, fit, flat, {}, {}, nullptr, &turned);
+  const Points2 moved = result.rest.rowwise() + (sheet.mesh.rest.row(0) - result.rest.row(0));
+  EXPECT_LT(largest_difference(moved, sheet.mesh.rest), 1e-5);
+}
+
 TEST(DerivePattern, HoldsALockedPanelAndTheShapeOfALockedSide) {
   GridGarment garment = tube(20, 20, 0.2);
   garment.pattern.panels[1].locked = true;
