@@ -44,7 +44,13 @@ std::string fit_sentence(const JobFits& fits) {
 }
 
 std::string rest_words(Rest rest) {
-  return rest == Rest::Converged ? "at rest" : rest == Rest::Settled ? "settled" : "still moving";
+  switch (rest) {
+    case Rest::Converged: return "at rest";
+    case Rest::Settled: return "settled";
+    case Rest::NotAtRest: return "still moving";
+    case Rest::AsGiven: return "as it was given";
+  }
+  return "";
 }
 
 }  // namespace

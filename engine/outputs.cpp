@@ -2,6 +2,7 @@
 #include "engine/outputs.h"
 
 #include <array>
+#include <set>
 
 #include "engine/altered_pattern_record.h"
 #include "engine/core/content_hash.h"
@@ -316,6 +317,20 @@ JobInfo job_info(const GarmentInput& garment, const BodyInput& reference_body, c
   return {info_of("garment", garment.name, garment.bytes),
           {info_of("reference_body", reference_body.name, reference_body.bytes),
            info_of("target_body", target_body.name, target_body.bytes)}};
+}
+
+void check_outputs(const AlterOptions& options, JobWork work) {
+  const std::set<std::string> of_drapes = {"drape.obj", "fit.png"}, of_both = {"all", "result.json", "timings.json"};
+  for (std::size_t i = 0; i < options.outputs.size(); ++i) {
+    const std::string& name = options.outputs[i];
+    if (of_both.contains(name) || of_drapes.contains(name) == (work == JobWork::Drape)) continue;
+    throw Error(ErrorCode::OptionInvalid, "/outputs/" + std::to_string(i),
+                work == JobWork::Drape
+                    ? name + " comes from an alteration; a drape makes drape.obj, fit.png, result.json"
+                    : name +
+                          " comes from a drape alone; an alteration makes reference_drape.obj, "
+                          "fit_reference.png and others");
+  }
 }
 
 std::vector<OutputFile> drape_outputs(const DrapedGarment& draped, const AlterOptions& options, const JobInfo& info) {

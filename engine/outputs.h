@@ -21,6 +21,12 @@ struct JobInfo {
 JobInfo job_info(const GarmentInput& garment, const BodyInput& body);
 JobInfo job_info(const GarmentInput& garment, const BodyInput& reference_body, const BodyInput& target_body);
 
+enum class JobWork { Alter, Drape };
+
+// That the job makes every file the option `outputs` names. Throws Error{OptionInvalid, "/outputs/INDEX"} that says
+// which it makes.
+void check_outputs(const AlterOptions& options, JobWork work);
+
 // `at_once`: pictures are drawn by two threads.
 std::vector<OutputFile> alter_outputs(const AlterResult& result, const AlterOptions& options, const JobInfo& info,
                                       bool at_once = false);

@@ -217,7 +217,7 @@ class Draper {
   void finish(const Points3& start) {
     pin(pinned_nodes(), start);
     if (options_.keep_drape)
-      result_.drape.nodes = start;
+      result_.drape.nodes = start, result_.quality.rest = Rest::AsGiven;
     else
       relax_from(start);
     const DrapeQuality solved = result_.quality;

@@ -95,7 +95,13 @@ bool triangles_cross(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t)
 }  // namespace
 
 std::string_view rest_name(Rest rest) {
-  return rest == Rest::Converged ? "converged" : rest == Rest::Settled ? "settled" : "not_at_rest";
+  switch (rest) {
+    case Rest::Converged: return "converged";
+    case Rest::Settled: return "settled";
+    case Rest::NotAtRest: return "not_at_rest";
+    case Rest::AsGiven: return "as_given";
+  }
+  return "not_at_rest";
 }
 
 std::vector<std::pair<int, int>> crossing_pairs(const Points3& nodes, const Triangles& triangles, int most) {

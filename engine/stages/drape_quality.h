@@ -14,8 +14,9 @@ enum class Rest {
   Converged,  // residual force below 0.3 of a mean node's weight
   Settled,    // below 2.6 but for a fiftieth of the nodes, and no free edge moved by 0.5 mm over 50 iterations
   NotAtRest,
+  AsGiven,  // taken as it was handed in: no residual, nothing moved
 };
-std::string_view rest_name(Rest rest);  // "converged", "settled", "not_at_rest"
+std::string_view rest_name(Rest rest);  // "converged", "settled", "not_at_rest", "as_given"
 
 struct StrainPercentiles {
   double p50 = 0.0, p99 = 0.0;  // of the magnitude, area-weighted, dimensionless

@@ -7,28 +7,18 @@
 #include "server/app/body_source.h"
 #include "server/app/command.h"
 #include "server/app/files.h"
+#include "server/app/garment_source.h"
 #include "server/app/job_options.h"
 
 namespace toile::app {
 namespace {
 
 struct JobFiles {
-  std::string garment, reference_body, target_body, out;
-  std::string uv_unit, sidecar, worn;
-  bool keep_drape = false;
+  GarmentSource garment;
+  std::string reference_body, target_body, out;
   BodySource reference_source, target_source;
   std::shared_ptr<JobOptions> options = std::make_shared<JobOptions>();
 };
-
-GarmentInput read_garment_input(const JobFiles& files) {
-  GarmentInput input{std::filesystem::path(files.garment).filename().string(), read_file(files.garment)};
-  if (!files.uv_unit.empty())
-    input.metre_per_uv_unit = files.uv_unit == "mm" ? 1e-3 : files.uv_unit == "cm" ? 1e-2 : 1.0;
-  if (!files.sidecar.empty()) input.sidecar = read_file(files.sidecar);
-  input.keep_drape = files.keep_drape;
-  if (!files.worn.empty()) input.worn = read_file(files.worn);
-  return input;
-}
 
 void write_outputs(const std::string& folder, const std::vector<OutputFile>& files) {
   for (const OutputFile& file : files) {
@@ -39,9 +29,9 @@ void write_outputs(const std::string& folder, const std::vector<OutputFile>& fil
 }
 
 void alter(const JobFiles& files, Context& context) {
-  const AlterOptions options = read_job_options(*files.options);
+  const AlterOptions options = read_job_options(*files.options, JobWork::Alter);
   prepare_folder(files.out);
-  const GarmentInput garment = read_garment_input(files);
+  const GarmentInput garment = read_garment_input(files.garment);
   const BodyInput reference = read_body_input(files.reference_body, files.reference_source);
   const BodyInput target = read_body_input(files.target_body, files.target_source);
   StageRunner runner(nullptr, &context.progress, kAlterStages, threads_of(context));
@@ -51,9 +41,9 @@ void alter(const JobFiles& files, Context& context) {
 }
 
 void drape_one(const JobFiles& files, Context& context) {
-  const AlterOptions options = read_job_options(*files.options);
+  const AlterOptions options = read_job_options(*files.options, JobWork::Drape);
   prepare_folder(files.out);
-  const GarmentInput garment = read_garment_input(files);
+  const GarmentInput garment = read_garment_input(files.garment);
   const BodyInput body = read_body_input(files.reference_body, files.reference_source);
   StageRunner runner(nullptr, &context.progress, kDrapeStages, threads_of(context));
   const auto draped = drape_garment(garment, body, options, runner);
@@ -61,26 +51,8 @@ void drape_one(const JobFiles& files, Context& context) {
   write_outputs(files.out, {timings_output(runner.timings())});
 }
 
-void add_garment_options(CLI::App& command, const std::shared_ptr<JobFiles>& files) {
-  command
-      .add_option("--garment", files->garment,
-                  "Garment: a GarmentCode pattern (JSON), or a 3D garment (OBJ) whose texture is its pattern")
-      ->type_name("FILE")
-      ->required();
-  command.add_option("--uv-unit", files->uv_unit, "OBJ garment: unit of its pattern; found when left out")
-      ->check(CLI::IsMember({"mm", "cm", "m"}));
-  command.add_flag("--keep-drape", files->keep_drape, "OBJ garment: it hangs as it should, do not drape it anew");
-  command
-      .add_option("--seams", files->sidecar,
-                  "OBJ garment: file beside it with seams, names of panels, allowances (JSON)")
-      ->type_name("FILE");
-  command
-      .add_option(
-          "--worn", files->worn,
-          "Pattern out of an earlier alteration (target_pattern.json): the target_worn.obj beside it. The fit it "
-          "was derived for is asked for again, so that the errors of both times do not add up")
-      ->type_name("FILE");
-  command.add_option("--out", files->out, "Folder for the results; made if needed")->type_name("FOLDER")->required();
+void add_out_option(CLI::App& command, JobFiles& files) {
+  command.add_option("--out", files.out, "Folder for the results; made if needed")->type_name("FOLDER")->required();
 }
 
 }  // namespace
@@ -92,7 +64,8 @@ void add_alter_command(CLI::App& app, Context& context) {
       "Example: toile alter --garment skirt.json --reference-body builtin:woman-38-168 --target-body scan.obj --out "
       "out/skirt\nThen open out/skirt/report.html.");
   auto files = std::make_shared<JobFiles>();
-  add_garment_options(*command, files);
+  add_garment_options(*command, files->garment);
+  add_out_option(*command, *files);
   command->add_option("--reference-body", files->reference_body, std::string("Body the garment fits now: ") + kBodyHelp)
       ->type_name("BODY")
       ->required();
@@ -114,7 +87,8 @@ void add_drape_command(CLI::App& app, Context& context) {
       "Example: toile drape --garment skirt.json --body builtin:woman-38-168 --out out/fit\nThen open "
       "out/fit/fit.png.");
   auto files = std::make_shared<JobFiles>();
-  add_garment_options(*command, files);
+  add_garment_options(*command, files->garment);
+  add_out_option(*command, *files);
   command->add_option("--body", files->reference_body, std::string("Body that wears it: ") + kBodyHelp)
       ->type_name("BODY")
       ->required();

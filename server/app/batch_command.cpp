@@ -14,6 +14,7 @@
 #include "server/app/files.h"
 #include "server/app/fit_summary.h"
 #include "server/app/folder_stages.h"
+#include "server/app/garment_source.h"
 #include "server/app/job_options.h"
 #include "server/http/batch_report.h"
 
@@ -24,7 +25,8 @@ namespace fs = std::filesystem;
 namespace {
 
 struct BatchFiles {
-  std::string garment, reference_body, target_bodies, out;
+  GarmentSource garment;
+  std::string reference_body, target_bodies, out;
   std::shared_ptr<JobOptions> options = std::make_shared<JobOptions>();
   BodySource source;
 };
@@ -73,8 +75,8 @@ class Batch {
   Batch(const BatchFiles& files, Context& context)
       : files_(files),
         context_(context),
-        options_(read_job_options(*files.options)),
-        garment_{fs::path(files.garment).filename().string(), read_file(files.garment)},
+        options_(read_job_options(*files.options, JobWork::Alter)),
+        garment_(read_garment_input(files.garment)),
         reference_(read_body_input(files.reference_body, BodySource{})),
         stages_(fs::path(files.out) / ".stages") {}
 
@@ -159,9 +161,7 @@ void add_batch_command(CLI::App& app, Context& context) {
   command->footer(
       "Example: toile batch --garment skirt.json --reference-body builtin:woman-38-168 --target-bodies scans/ --out "
       "out/all\nThen open out/all/summary.html.");
-  command->add_option("--garment", files->garment, "Garment: a GarmentCode pattern (JSON)")
-      ->type_name("FILE")
-      ->required();
+  add_garment_options(*command, files->garment);
   command->add_option("--reference-body", files->reference_body, std::string("Body the garment fits now: ") + kBodyHelp)
       ->type_name("BODY")
       ->required();

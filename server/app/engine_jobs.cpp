@@ -9,9 +9,9 @@
 #include "engine/io/options_json.h"
 #include "engine/io/record_json.h"
 #include "engine/outputs.h"
-#include "engine/stages/import_pattern.h"
 #include "server/app/body_source.h"
 #include "server/app/fit_summary.h"
+#include "server/app/garment_source.h"
 
 namespace toile::app {
 
@@ -27,6 +27,11 @@ std::string text_of(const Bytes& bytes) {
   return std::string(bytes.begin(), bytes.end());
 }
 
+Bytes bytes_of_json(const json& document) {
+  const std::string text = document.dump();
+  return Bytes(text.begin(), text.end());
+}
+
 BodyInput body_input(const JobInput& given) {
   const json fields = json::parse(given.fields);
   if (fields.value("format", "") == "builtin") return {"builtin:" + text_of(given.bytes), {}, {}, {}};
@@ -35,15 +40,17 @@ BodyInput body_input(const JobInput& given) {
   source.up = fields.value("up", source.up);
   source.kind = fields.value("kind", source.kind);
   BodyInput body{given.name.empty() ? "body" : given.name, given.bytes, import_options(source), {}};
-  if (fields.contains("landmarks")) {
-    const std::string landmarks = fields["landmarks"].dump();
-    body.landmarks.assign(landmarks.begin(), landmarks.end());
-  }
+  if (fields.contains("landmarks")) body.landmarks = bytes_of_json(fields["landmarks"]);
   return body;
 }
 
 GarmentInput garment_input(const JobInput& given) {
-  return {given.name.empty() ? "garment" : given.name, given.bytes};
+  const json fields = json::parse(given.fields);
+  GarmentInput garment{given.name.empty() ? "garment" : given.name, given.bytes};
+  garment.metre_per_uv_unit = metre_per_uv_unit(fields.value("uv_unit", ""));
+  garment.keep_drape = fields.value("keep_drape", false);
+  if (fields.contains("seams")) garment.sidecar = bytes_of_json(fields["seams"]);
+  return garment;
 }
 
 // Hands the files over; the report quotes the result and the clocks.
@@ -105,7 +112,7 @@ JobReport inspect_body_job(const JobContext& context) {
 }
 
 JobReport inspect_garment_job(const JobContext& context) {
-  const Pattern pattern = import_pattern(context.inputs.at("input").bytes, context.progress);
+  const Pattern pattern = read_garment(garment_input(context.inputs.at("input")));
   std::vector<std::string> panels;
   for (const Panel& panel : pattern.panels) panels.push_back(panel.name);
   Record about;
@@ -116,7 +123,9 @@ JobReport inspect_garment_job(const JobContext& context) {
 std::string complete_options(const std::string& kind, const std::string& options) {
   if (kind != "alter" && kind != "drape") return options;
   try {
-    return json::parse(write_options(read_options(bytes_of(options)))).dump();
+    const AlterOptions read = read_options(bytes_of(options));
+    check_outputs(read, kind == "drape" ? JobWork::Drape : JobWork::Alter);
+    return json::parse(write_options(read)).dump();
   } catch (const Error& error) {
     throw Error(error.code, "/options" + error.subject, error.message);
   }

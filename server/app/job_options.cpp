@@ -72,10 +72,11 @@ void add_job_options(CLI::App& command, const std::shared_ptr<JobOptions>& optio
   }
 }
 
-AlterOptions read_job_options(const JobOptions& given) {
+AlterOptions read_job_options(const JobOptions& given, JobWork work) {
   AlterOptions options;
   try {
     if (!given.file.empty()) options = read_options(read_file(given.file));
+    if (!given.given.contains("outputs")) check_outputs(options, work);
   } catch (const Error& error) {
     if (error.code == ErrorCode::FileUnreadable) throw;
     throw Error(error.code, given.file + "#" + error.subject, error.message);
@@ -83,6 +84,7 @@ AlterOptions read_job_options(const JobOptions& given) {
   for (const auto& [name, value] : given.given) {
     try {
       set_option(options, name, value);
+      if (name == "outputs") check_outputs(options, work);
     } catch (const Error& error) {
       throw Error(error.code, flag_of(name) + " " + value, error.message);
     }

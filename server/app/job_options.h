@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/core/options.h"
+#include "engine/outputs.h"
 
 namespace toile::app {
 
@@ -17,12 +17,10 @@ struct JobOptions {
   std::map<std::string, std::string> given;  // name of the option -> its value on the command line
 };
 
-enum class JobWork { Alter, Drape };
-
 // --stretch-limit for stretch_limit, and so on. The help of a drape leaves out what only an alteration asks for.
 void add_job_options(CLI::App& command, const std::shared_ptr<JobOptions>& options, JobWork work);
 
 // The file first, then what the command line says. Throws Error{OptionInvalid} that names the flag or the file.
-AlterOptions read_job_options(const JobOptions& options);
+AlterOptions read_job_options(const JobOptions& options, JobWork work);
 
 }  // namespace toile::app

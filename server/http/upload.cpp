@@ -42,33 +42,49 @@ std::vector<std::string> split_labels(const std::string& text) {
   return labels_of(labels, "labels");
 }
 
-// How the bytes are to be read: what the importer needs to know beyond them.
-std::string reading_fields(const std::map<std::string, std::string>& fields, const std::string& format) {
+using Fields = std::map<std::string, std::string>;
+
+const std::map<std::string, std::set<std::string>>& choices() {
+  static const std::map<std::string, std::set<std::string>> all = {{"kind", {"human", "form"}},
+                                                                   {"unit", {"auto", "m", "cm", "mm", "in"}},
+                                                                   {"uv_unit", {"m", "cm", "mm"}},
+                                                                   {"up", {"auto", "+x", "-x", "+y", "-y", "+z", "-z"}},
+                                                                   {"keep_drape", {"true", "false"}}};
+  return all;
+}
+
+void check_fields(const Fields& fields, InputKind kind) {
+  const std::set<std::string> body = {"name", "labels", "kind", "unit", "up", "landmarks"};
+  const std::set<std::string> garment = {"name", "labels", "uv_unit", "keep_drape", "seams"};
+  for (const auto& [name, value] : fields) {
+    if (!(kind == InputKind::Body ? body : garment).contains(name))
+      throw invalid(name, "unknown form field `" + name + "`; see /openapi.yaml");
+    const auto allowed = choices().find(name);
+    if (allowed == choices().end() || allowed->second.contains(value)) continue;
+    std::string list;
+    for (const std::string& choice : allowed->second) list += (list.empty() ? "" : ", ") + choice;
+    throw invalid(name, "`" + name + "` is one of " + list);
+  }
+}
+
+// How the bytes are to be read: what the importer needs to know beyond them. The fields were checked.
+std::string reading_fields(const Fields& fields, const std::string& format) {
   json reading = json::object();
   if (!format.empty()) reading["format"] = format;
   for (const auto& [name, value] : fields) {
     if (name == "unit" || name == "up" || name == "kind" || name == "uv_unit") reading[name] = value;
-    if (name == "keep_drape") reading[name] = value == "true" || value == "1";
-    if (name == "landmarks") {
-      const json landmarks = json::parse(value, nullptr, false);
-      if (!landmarks.is_object()) throw invalid("landmarks", "landmarks are a JSON object: name -> [x, y, z]");
-      reading[name] = landmarks;
-    }
+    if (name == "keep_drape") reading[name] = value == "true";
+    if (name != "landmarks" && name != "seams") continue;
+    const json document = json::parse(value, nullptr, false);
+    if (!document.is_object()) throw invalid(name, "`" + name + "` is a JSON object; see /openapi.yaml");
+    reading[name] = document;
   }
   return reading.dump();
 }
 
-void refuse_unknown_fields(const std::map<std::string, std::string>& fields, InputKind kind) {
-  const std::set<std::string> body = {"name", "labels", "kind", "unit", "up", "landmarks"};
-  const std::set<std::string> garment = {"name", "labels", "uv_unit", "keep_drape"};
-  for (const auto& [name, value] : fields)
-    if (!(kind == InputKind::Body ? body : garment).contains(name))
-      throw invalid(name, "unknown form field `" + name + "`; see /openapi.yaml");
-}
-
 Upload read_multipart(Service& service, Request& request, InputKind kind, const std::string& boundary) {
   BlobWriter file(service.store.artifacts.temporary_folder());
-  std::map<std::string, std::string> fields;
+  Fields fields;
   std::string current, filename;
   bool has_file = false;
   MultipartReader reader(
@@ -96,7 +112,7 @@ Upload read_multipart(Service& service, Request& request, InputKind kind, const 
   if (!complete) throw Problem{400, "file_malformed", "the upload ended early", {}, {}};
   reader.finish();
   if (!has_file || file.size() == 0) throw invalid("file", "send the bytes as a form part called `file`");
-  refuse_unknown_fields(fields, kind);
+  check_fields(fields, kind);
   NewInput input{request.tenant,
                  kind,
                  fields.contains("name") ? caption(fields["name"]) : filename,

@@ -40,6 +40,8 @@ refused "an unknown kind" 422 bad_usage /kind "${jobs[@]}" -d "$(job_text knit '
 refused "a body that is not there" 422 bad_usage /target_body "${jobs[@]}" \
   -d "$(job_text write '{}' | sed "s/$target/body_00000000000000000000000000000000/")"
 refused "an option out of range" 422 option_invalid /options/triangles "${jobs[@]}" -d "$(job_text alter '{"triangles":3}')"
+refused "a file of another job" 422 option_invalid /options/outputs/0 "${jobs[@]}" \
+  -d "$(job_text drape '{"outputs":["ticket.json"]}')"
 refused "an unknown option" 422 option_invalid "" "${jobs[@]}" -d "$(job_text alter '{"colour":3}')"
 refused "a webhook without a secret" 422 option_invalid /webhook "${jobs[@]}" \
   -d "$(job_text write '{}' | sed 's/{/{"webhook":"http:\/\/example.org\/x",/')"
@@ -61,6 +63,12 @@ refused "a header of 10^9 vertices" 413 limit_exceeded "" -F file=@"$work/huge.p
 refused "a large upload" 413 limit_exceeded "" -F file=@"$work/large.obj" "$bodies"
 refused "an upload without a file" 422 bad_usage file -F name=x "$bodies"
 refused "an upload of two files" 422 bad_usage file -F file=@"$work/point.obj" -F file=@"$work/point.obj" "$bodies"
+refused "an unknown unit" 422 bad_usage unit -F file=@"$work/point.obj" -F unit=ell "$bodies"
+refused "an unknown direction" 422 bad_usage up -F file=@"$work/point.obj" -F up=north "$bodies"
+refused "an unknown kind of body" 422 bad_usage kind -F file=@"$work/point.obj" -F kind=cat "$bodies"
+refused "an unknown unit of a pattern" 422 bad_usage uv_unit -F file=@"$work/point.obj" -F uv_unit=in "$(on /v1/garments)"
+refused "a field that is neither" 422 bad_usage keep_drape -F file=@"$work/point.obj" -F keep_drape=1 "$(on /v1/garments)"
+refused "seams that are no document" 422 bad_usage seams -F file=@"$work/point.obj" -F seams=none "$(on /v1/garments)"
 refused "an unknown form field" 422 bad_usage colour -F file=@"$work/point.obj" -F colour=red "$bodies"
 refused "a broken multipart" 400 malformed_multipart "" -X POST -H 'Content-Type: multipart/form-data; boundary=x' -d 'nothing' "$bodies"
 refused "an upload of another type" 415 format_unknown "" -X POST -H 'Content-Type: image/png' -d 'x' "$bodies"

@@ -67,6 +67,7 @@ TEST(Drape, GivenStartIsKeptWhenAsked) {
   const DrapeResult result = drape_from(t.pattern, t.mesh, t.body, start, options, nullptr);
   EXPECT_EQ((result.drape.nodes - start.nodes).norm(), 0);
   EXPECT_NEAR(result.quality.weft.p50, 0.15 / (0.96 * 0.14) - 1, 2e-3);
+  EXPECT_EQ(result.quality.rest, Rest::AsGiven);
 }
 
 }  // namespace

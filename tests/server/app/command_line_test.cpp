@@ -77,11 +77,12 @@ TEST(CommandLine, WrongOptionsAreToldByTheirFlagOrFile) {
   const std::string options = folder.write("options.json", R"({"preset": "fast"})");
   const std::string out = folder.path() + "/out";
   const auto flag = drape(out, {"--stretch-limit", "5"}), file = drape(out, {"--options", options});
-  const auto name = drape(out, {"--outputs", "fit.png,fit.jpg"});
-  for (const auto& result : {flag, file, name}) EXPECT_EQ(result.exit_code, 2);
+  const auto name = drape(out, {"--outputs", "fit.png,fit.jpg"}), other = drape(out, {"--outputs", "ticket.json"});
+  for (const auto& result : {flag, file, name, other}) EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(flag.err, HasSubstr("--stretch-limit 5: must lie between"));
   EXPECT_THAT(file.err, HasSubstr(options + "#/preset: expected one of draft"));
   EXPECT_THAT(name.err, HasSubstr("--outputs fit.png,fit.jpg: no file of this name"));
+  EXPECT_THAT(other.err, HasSubstr("ticket.json comes from an alteration; a drape makes drape.obj"));
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
