@@ -4,6 +4,7 @@
 // The key of a result is a hash of the stage's name and version, the keys of its inputs and its options; two results
 // with one key are equal, so a key stands for its value downstream. Clocks are kept apart from results. Stages that
 // need nothing of each other may run at the same time: their results and their order in the timings stay the same.
+// Threads of the job that are idle are lent to the stages.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include "engine/core/content_hash.h"
 #include "engine/core/progress.h"
 #include "engine/core/side_by_side.h"
+#include "engine/core/spare_threads.h"
 #include "engine/core/stage_cache.h"
 
 namespace toile {
@@ -70,6 +72,7 @@ class StageRunner {
       result.value = from_bytes<Result>(*bytes);
       reused = true;
     } else {
+      const LendThreads lend(&job_->spare);
       result.value = std::forward<Work>(work)();
       if (job_->cache) job_->put(result.key, to_bytes(result.value));
     }
@@ -83,6 +86,7 @@ class StageRunner {
   template <class First, class Second>
   auto run_both(First&& first, Second&& second) {
     StageRunner one(*job_), other(*job_);
+    const LendThreads lend(&job_->spare);
     auto both = side_by_side(
         at_once(), [&] { return first(one); }, [&] { return second(other); });
     for (const StageRunner* part : {&one, &other})
@@ -105,7 +109,8 @@ class StageRunner {
     StageCache* cache;
     const Progress* progress;
     int stages, threads;
-    std::mutex mutex;
+    SpareThreads spare{threads - 1};
+    std::mutex mutex{};
     int stages_done = 0;
     double furthest = 0.0;
 
@@ -150,7 +155,7 @@ class StageRunner {
 };
 
 inline StageRunner::StageRunner(StageCache* cache, const Progress* progress, int stages, int threads)
-    : whole_(new Job{cache, progress, stages, threads, {}}), job_(whole_.get()) {
+    : whole_(new Job{cache, progress, stages, threads}), job_(whole_.get()) {
   pass_on_progress();
 }
 

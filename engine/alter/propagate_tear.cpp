@@ -39,7 +39,7 @@ void add_release_mouths(const Sheet& sheet, int side, TearOutcome& outcome) {
 }
 
 void release_sides(Sheet& sheet, const std::vector<Tear>& tears, const TearOptions& options, Progress* progress,
-                   SparseSolver* solver, std::vector<TearOutcome>& outcomes) {
+                   SheetEquations* shared, std::vector<TearOutcome>& outcomes) {
   bool any = false;
   for (const Tear& tear : tears)
     if (tear.kind == TearKind::Release)
@@ -49,13 +49,13 @@ void release_sides(Sheet& sheet, const std::vector<Tear>& tears, const TearOptio
           any = true;
         }
   if (!any) return;
-  relax(sheet, options.relaxation, progress, solver);
+  relax(sheet, options.relaxation, progress, shared);
   for (std::size_t i = 0; i < tears.size(); ++i) {
     if (tears[i].kind != TearKind::Release) continue;
     outcomes[i].largest_gap = attach_shut(sheet, tears[i].side, options.least_gap);
     outcomes[i].opened = outcomes[i].largest_gap > 0.0;
   }
-  relax(sheet, options.relaxation, progress, solver);
+  relax(sheet, options.relaxation, progress, shared);
   for (std::size_t i = 0; i < tears.size(); ++i)
     if (tears[i].kind == TearKind::Release) add_release_mouths(sheet, tears[i].side, outcomes[i]);
 }
@@ -142,9 +142,9 @@ Vec2 tear_direction(const Sheet& sheet, int vertex, const TearOptions& options) 
 }
 
 std::vector<TearOutcome> propagate_tears(Sheet& sheet, const std::vector<Tear>& tears, const TearOptions& options,
-                                         Progress* progress, SparseSolver* solver) {
+                                         Progress* progress, SheetEquations* shared) {
   std::vector<TearOutcome> outcomes(tears.size());
-  release_sides(sheet, tears, options, progress, solver, outcomes);
+  release_sides(sheet, tears, options, progress, shared, outcomes);
   for (std::size_t i = 0; i < tears.size(); ++i)
     if (tears[i].kind == TearKind::Edge) outcomes[i] = tear_edge(sheet, tears[i], options, progress);
   return outcomes;

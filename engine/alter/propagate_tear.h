@@ -46,9 +46,9 @@ struct TearOptions {
 TearOutcome propagate_tear(Sheet& sheet, const Tear& tear, const TearOptions& options, Progress* progress = nullptr);
 
 // Carries out several tears of one panel: all sides are let go at once, then the cuts are made in their order. One
-// outcome per tear. `solver`: see relax(); for the sides alone.
+// outcome per tear. `shared`: see relax(); for the sides alone.
 std::vector<TearOutcome> propagate_tears(Sheet& sheet, const std::vector<Tear>& tears, const TearOptions& options,
-                                         Progress* progress = nullptr, SparseSolver* solver = nullptr);
+                                         Progress* progress = nullptr, SheetEquations* shared = nullptr);
 
 // Across the averaged largest stretch around a border vertex, into the cloth, snapped to the grain.
 Vec2 tear_direction(const Sheet& sheet, int vertex, const TearOptions& options);

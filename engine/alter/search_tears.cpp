@@ -17,7 +17,13 @@ class Search {
  public:
   Search(const Sheet& stretched, const std::vector<TearUnit>& units, const SearchTearsOptions& options,
          std::vector<TearSet>& sets, int& trials, Progress* progress)
-      : stretched_(stretched), units_(units), options_(options), found_(sets), trials_(trials), progress_(progress) {
+      : stretched_(stretched),
+        units_(units),
+        options_(options),
+        found_(sets),
+        trials_(trials),
+        progress_(progress),
+        equations_(stretched, options.tear.relaxation.hold) {
     for (const TearSet& set : sets) tried_.insert(set.units);
   }
 
@@ -74,7 +80,7 @@ class Search {
       const auto& own = units_[static_cast<std::size_t>(unit)].tears;
       tears.insert(tears.end(), own.begin(), own.end());
     }
-    const std::vector<TearOutcome> outcomes = propagate_tears(sheet, tears, options_.tear, progress_, &solver_);
+    const std::vector<TearOutcome> outcomes = propagate_tears(sheet, tears, options_.tear, progress_, &equations_);
     ++trials_;
     TearSet set{units, measure_stress(sheet, options_.stretch_limit), {}, {}};
     std::size_t next = 0;
@@ -137,7 +143,7 @@ class Search {
   std::vector<TearSet>& found_;
   int& trials_;
   Progress* progress_;
-  SparseSolver solver_;  // all sets that only let sides go share one pattern of equations
+  SheetEquations equations_;  // of all sets while only sides are let go
   std::set<std::vector<int>> tried_;
 };
 

@@ -11,9 +11,8 @@
 // Source: [Eggler2024, Sec. 6]; energy and weights method.md section 5.  Lengths in metres.
 #pragma once
 
-#include "engine/alter/sheet.h"
+#include "engine/alter/sheet_equations.h"
 #include "engine/core/progress.h"
-#include "engine/numerics/sparse_solver.h"
 
 namespace toile {
 
@@ -34,10 +33,10 @@ struct SheetStress {
   double over = 0.0;    // share of the area above `limit`
 };
 
-// Moves sheet.now to (near) the minimum; the cloth's present place is the start. `solver`: may be shared by relaxations
-// of one sheet and its copies, whose equations have one pattern.
+// Moves sheet.now to (near) the minimum; the cloth's present place is the start. `shared`: the equations of the sheet
+// with this `hold`, or of an uncut copy of it; made here where they are not given.
 void relax(Sheet& sheet, const RelaxOptions& options = {}, Progress* progress = nullptr,
-           SparseSolver* solver = nullptr);
+           SheetEquations* shared = nullptr);
 
 // What is left in the cloth where it is.
 SheetStress measure_stress(const Sheet& sheet, double limit);

@@ -2,9 +2,12 @@
 #include "engine/alter/tear_pattern.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "engine/alter/choose_sets.h"
+#include "engine/alter/lay_sheet.h"
 #include "engine/alter/tear_in_rounds.h"
+#include "engine/core/work_off.h"
 
 namespace toile {
 namespace {
@@ -38,6 +41,7 @@ class Planning {
     if (options.symmetric) twins_ = find_panel_twins(pattern, sheets_);
     units_ = side_units(pattern, sheets_, partners_, twins_);
     sets_.resize(sheets_.size());
+    trials_.assign(sheets_.size(), 0);
   }
 
   // Panels with their stress before and their tears; the sheets are the stretched, untorn ones.
@@ -46,6 +50,7 @@ class Planning {
     search_sides();
     search_cuts();
     if (std::any_of(sets_.begin(), sets_.end(), [](const auto& sets) { return sets.size() > 1; })) choose();
+    plan_.trials = std::accumulate(trials_.begin(), trials_.end(), 0);
     plan_.sheets = std::move(sheets_);
     return std::move(plan_);
   }
@@ -71,18 +76,19 @@ class Planning {
   std::vector<std::optional<PanelTwin>> twins_;
   TearUnits units_;
   std::vector<std::vector<TearSet>> sets_;  // per panel that chooses
+  std::vector<int> trials_;                 // per panel
   TornPattern plan_;
 };
 
 void Planning::stretch() {
-  for (std::size_t p = 0; p < sheets_.size(); ++p) {
+  work_off(sheets_.size(), [&](std::size_t p) {
     SheetStress& before = plan_.panels[p].before;
     before = measure_stress(sheets_[p], limit());
     // The plain map is the start; where it has no tension it stays, and there is nothing to relax.
-    if (locked(p) || share_of_limit(before, limit()) < 1.0) continue;
+    if (locked(p) || share_of_limit(before, limit()) < 1.0) return;
     relax(sheets_[p], options_.candidates.tear.relaxation, progress_);
     before = measure_stress(sheets_[p], limit());
-  }
+  });
 }
 
 void Planning::search_panel(std::size_t p, int first_unit) {
@@ -94,15 +100,15 @@ void Planning::search_panel(std::size_t p, int first_unit) {
   search.tear.relaxation.energy_drop = 1e-3;
   search.removing = options_.removing;
   for (const KeepOut& keep : pattern_.panels[p].keep_outs) search.keep_outs.push_back(keep.polygon);
-  search_tears(sheets_[p], units_.of_panel[p], first_unit, search, sets_[p], plan_.trials, progress_);
+  search_tears(sheets_[p], units_.of_panel[p], first_unit, search, sets_[p], trials_[p], progress_);
 }
 
 void Planning::search_sides() {
-  for (std::size_t p = 0; p < sheets_.size(); ++p) {
-    if (!chooses(p)) continue;
+  work_off(sheets_.size(), [&](std::size_t p) {
+    if (!chooses(p)) return;
     if (locked(p)) units_.of_panel[p].clear();
     search_panel(p, 0);
-  }
+  });
 }
 
 // Cuts are looked for only where sides alone leave too much, or many of them are needed.
@@ -124,8 +130,9 @@ void Planning::search_cuts() {
   cuts.least_cut_side = options_.candidates.least_cut_side;
   cuts.tear = options_.candidates.tear;
   add_cut_units(pattern_, sheets_, partners_, twins_, wanting, cuts, units_);
-  for (std::size_t p = 0; p < sheets_.size(); ++p)
+  work_off(sheets_.size(), [&](std::size_t p) {
     if (chooses(p) && units_.of_panel[p].size() > known[p]) search_panel(p, static_cast<int>(known[p]));
+  });
 }
 
 void Planning::choose() {
@@ -190,16 +197,30 @@ Tear carried(const Tear& tear, const Sheet& from, const Sheet& to) {
   return same;
 }
 
-// Carries out a panel's tears on the garment's own mesh; what does not open there is left out.
+// The cloth of the plan, stretched, with the sides let go that the panel's tears let go.
+Sheet released(const Sheet& planned, const PanelTearing& panel, const TearOptions& tearing, Progress* progress) {
+  Sheet sheet = planned;
+  std::vector<Tear> tears;
+  for (const MadeTear& made : panel.tears)
+    if (made.tear.kind == TearKind::Release) tears.push_back(made.tear);
+  propagate_tears(sheet, tears, tearing, progress);
+  return sheet;
+}
+
+// Carries out a panel's tears on the garment's own mesh, from where the plan's cloth lies; what does not open there is
+// left out.
 void carry_out(Sheet& sheet, const Sheet& planned, PanelTearing& panel, std::vector<int>& jobs,
                const TearPatternOptions& options, Progress* progress) {
   const TearOptions& tearing = options.candidates.tear;
   std::vector<Tear> tears;
   for (const MadeTear& made : panel.tears) tears.push_back(carried(made.tear, planned, sheet));
+  SheetEquations equations(sheet, tearing.relaxation.hold);
+  const bool stretched_first = tears.empty() || tears.back().kind == TearKind::Edge;
+  if (planned.cuts.empty()) lay_like(sheet, stretched_first ? planned : released(planned, panel, tearing, progress));
   // Cuts find their way in cloth that lies as it will be stretched.
-  if (tears.empty() || tears.back().kind == TearKind::Edge) relax(sheet, tearing.relaxation, progress);
+  if (stretched_first) relax(sheet, tearing.relaxation, progress, &equations);
   // Cuts come last, and in the sheet they stand in the order of their tears.
-  const std::vector<TearOutcome> outcomes = propagate_tears(sheet, tears, tearing, progress);
+  const std::vector<TearOutcome> outcomes = propagate_tears(sheet, tears, tearing, progress, &equations);
   std::vector<MadeTear> made;
   std::vector<int> made_jobs;
   for (std::size_t i = 0; i < tears.size(); ++i) {
@@ -233,14 +254,14 @@ TornPattern tear_pattern(const Pattern& pattern, const Stretching& fine, const S
   const std::vector<Sheet> planned = std::move(torn.sheets);
   torn.sheets = std::move(sheets);
   const double limit = options.candidates.stretch_limit;
-  for (std::size_t p = 0; p < torn.sheets.size(); ++p) {
+  work_off(torn.sheets.size(), [&](std::size_t p) {
     PanelTearing& panel = torn.panels[p];
     const bool tense = !panel.tears.empty() || share_of_limit(measure_stress(torn.sheets[p], limit), limit) >= 1.0;
     if (!pattern.panels[p].locked && tense)
       carry_out(torn.sheets[p], planned[p], panel, torn.jobs[p], options, progress);
     panel.after = measure_stress(torn.sheets[p], limit);
     conclude(torn.sheets[p], pattern.panels[p].locked, limit, panel);
-  }
+  });
   return torn;
 }
 

@@ -3,12 +3,15 @@
 // what they throw, is the same either way.
 #pragma once
 
+#include <atomic>
 #include <exception>
 #include <future>
 #include <optional>
 #include <system_error>
 #include <type_traits>
 #include <utility>
+
+#include "engine/core/spare_threads.h"
 
 namespace toile {
 
@@ -38,11 +41,32 @@ auto attempt(Work& work) {
   return done;
 }
 
+// One of the job's threads is at work for the second of two; whichever ends first gives it back.
+class TwoAtWork {
+ public:
+  TwoAtWork() : threads_(lent_threads()) {
+    if (threads_) threads_->take_ahead();
+  }
+  void end_one() {
+    if (threads_ && !one_has_ended_.exchange(true)) threads_->give_back();
+  }
+  SpareThreads* threads() const { return threads_; }
+
+ private:
+  SpareThreads* threads_;
+  std::atomic<bool> one_has_ended_{false};
+};
+
 // Empty where the system has no thread to give.
 template <class Work>
-auto start_thread(Work& work) -> std::optional<std::future<decltype(attempt(work))>> {
+auto start_thread(Work& work, TwoAtWork& two) -> std::optional<std::future<decltype(attempt(work))>> {
   try {
-    return std::async(std::launch::async, [&work] { return attempt(work); });
+    return std::async(std::launch::async, [&work, &two] {
+      const LendThreads lend(two.threads());
+      auto done = attempt(work);
+      two.end_one();
+      return done;
+    });
   } catch (const std::system_error&) {
     return std::nullopt;
   }
@@ -56,12 +80,18 @@ template <class First, class Second>
 auto side_by_side(bool at_once, First&& first, Second&& second)
     -> std::pair<std::invoke_result_t<First&>, std::invoke_result_t<Second&>> {
   namespace detail = side_by_side_detail;
-  auto other = at_once ? detail::start_thread(first) : std::nullopt;
-  if (!other) {
+  if (!at_once) {
     auto result = first();
     return {std::move(result), second()};
   }
+  detail::TwoAtWork two;
+  auto other = detail::start_thread(first, two);
+  if (!other) {
+    two.end_one();
+    return side_by_side(false, first, second);
+  }
   auto here = detail::attempt(second);
+  two.end_one();
   auto there = other->get();
   add_work_cpu_seconds(there.cpu_s);
   for (const std::exception_ptr& failed : {there.failed, here.failed})

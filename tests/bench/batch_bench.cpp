@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // batch [GARMENT] [--bodies NAME,NAME,...] [--triangles N]: one garment for many bodies of one family with the stages
-// shared, against each job alone: CPU seconds of every body.
+// shared, against each job alone: CPU seconds of every body. --count N: for N bodies drawn from seeds instead, of which
+// every tenth is also altered alone; the mean cost of a further body over that of a job alone.
 // threads [GARMENT] [--bodies NAME] [--triangles N]: one job with two threads, and two and four jobs at once, against
 // one job with one. Both tell whether the files are the same to the last byte.
 #include <cstdio>
@@ -10,7 +11,9 @@
 #include <sstream>
 #include <thread>
 
+#include "engine/core/error.h"
 #include "tests/bench/proof.h"
+#include "tests/bench/random_body.h"
 #include "tests/bench/whole_job.h"
 #include "tests/support/shared_data.h"
 
@@ -21,6 +24,7 @@ struct Request {
   std::string garment = "leggings_tight";
   std::vector<std::string> bodies = {"ggg_mean_female", "ggg_small_female", "ggg_male_extra", "ggg_large_male"};
   int triangles = 10000;
+  int count = 0;  // of random bodies; 0: those that are named
 };
 
 Request parse(const std::vector<std::string>& words) {
@@ -29,6 +33,8 @@ Request parse(const std::vector<std::string>& words) {
     const bool more = i + 1 < words.size();
     if (words[i] == "--triangles" && more) {
       request.triangles = std::atoi(words[++i].c_str());
+    } else if (words[i] == "--count" && more) {
+      request.count = std::atoi(words[++i].c_str());
     } else if (words[i] == "--bodies" && more) {
       request.bodies.clear();
       std::istringstream in(words[++i]);
@@ -75,23 +81,70 @@ AlterOptions options_of(const Request& request) {
   return options;
 }
 
+constexpr int kAlone = 10;  // of so many random bodies one is also altered alone
+
+class Batch {
+ public:
+  explicit Batch(AlterOptions options) : options_(std::move(options)) {}
+
+  // The first body pays for the shared stages and does not count as a further one.
+  void add(const test::Scene& scene, bool also_alone) try {
+    const JobRun shared = run_job(scene, options_, &stages_);
+    int reused = 0;
+    for (const StageCost& stage : shared.stages) reused += stage.reused;
+    std::vector<std::string> row = {scene.target.name, "-", fixed(shared.cpu_s, 2), "-", std::to_string(reused), "-"};
+    if (reused > 0) further_.push_back(shared.cpu_s);
+    if (also_alone) {
+      const JobRun alone = run_job(scene, options_);
+      const bool same = same_files(alone.files, shared.files);
+      all_same_ = all_same_ && same;
+      row[1] = fixed(alone.cpu_s, 2), row[3] = fixed(100 * shared.cpu_s / alone.cpu_s, 0), row[5] = same ? "yes" : "NO";
+      if (reused > 0) alone_.push_back(alone.cpu_s), compared_.push_back(shared.cpu_s);
+    }
+    table_.add(std::move(row));
+  } catch (const Error& error) {
+    table_.add({scene.target.name, "-", "-", "-", "-", error.message});
+  }
+
+  int print(const Arguments& arguments) const {
+    table_.print(arguments.csv);
+    if (!alone_.empty())
+      std::printf(
+          "a further body costs %.2f CPU s in the mean of %zu; those also altered alone %.2f against %.2f: %.1f %%\n",
+          mean(further_), further_.size(), mean(compared_), mean(alone_), 100 * mean(compared_) / mean(alone_));
+    return all_same_ ? 0 : 1;
+  }
+
+ private:
+  static double mean(const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+  }
+
+  AlterOptions options_;
+  MemoryStages stages_;
+  Table table_{{"body", "alone CPU s", "in the batch CPU s", "share %", "stages reused", "same bytes"}};
+  std::vector<double> further_, compared_, alone_;  // CPU s
+  bool all_same_ = true;
+};
+
 }  // namespace
 
 int bench_batch(const Arguments& arguments) {
   const Request request = parse(arguments.words);
-  const AlterOptions options = options_of(request);
-  Table table({"body", "alone CPU s", "in the batch CPU s", "share %", "stages reused", "same bytes"});
-  MemoryStages stages;
-  for (const std::string& body : request.bodies) {
-    const test::Scene scene = scene_of(request, body);
-    const JobRun alone = run_job(scene, options), shared = run_job(scene, options, &stages);
-    int reused = 0;
-    for (const StageCost& stage : shared.stages) reused += stage.reused;
-    table.add({body, fixed(alone.cpu_s, 2), fixed(shared.cpu_s, 2), fixed(100 * shared.cpu_s / alone.cpu_s, 0),
-               std::to_string(reused), same_files(alone.files, shared.files) ? "yes" : "NO"});
+  Batch batch(options_of(request));
+  if (request.count == 0) {
+    for (const std::string& body : request.bodies) batch.add(scene_of(request, body), true);
+  } else {
+    const std::vector<TriangleMesh> family = shared_family();
+    test::Scene scene = scene_of(request, request.bodies.front());
+    for (int number = 0; number < request.count; ++number) {
+      scene.target = random_body(number, family);
+      batch.add(scene, number % kAlone == 1);
+    }
   }
-  table.print(arguments.csv);
-  return 0;
+  return batch.print(arguments);
 }
 
 int bench_threads(const Arguments& arguments) {

@@ -4,49 +4,14 @@
 #include <cstdio>
 #include <exception>
 #include <map>
-#include <random>
 
 #include "engine/core/error.h"
-#include "engine/io/mesh_file.h"
 #include "tests/bench/derive.h"
-#include "tests/support/shared_body.h"
+#include "tests/bench/random_body.h"
 #include "tests/support/shared_data.h"
 
 namespace toile::bench {
 namespace {
-
-const std::vector<std::string> kFamily = {"ggg_mean_all",     "ggg_mean_female", "ggg_mean_male",
-                                          "ggg_small_female", "ggg_large_male",  "ggg_male_extra"};
-
-// The same number gives the same body everywhere: uniform numbers are made from the engine's bits alone.
-class Draw {
- public:
-  explicit Draw(int number) : engine_(static_cast<std::uint64_t>(number) + 1) {}
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1.0p-53;
-  }
-  std::size_t index(std::size_t count) { return static_cast<std::size_t>(engine_() % count); }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-// Two bodies of the family mixed, and scaled: 1.45 to 2 m tall, by a tenth wider or narrower than tall.
-BodyInput random_body(int number, const std::vector<TriangleMesh>& family) {
-  Draw draw(number);
-  const TriangleMesh &a = family[draw.index(family.size())], &b = family[draw.index(family.size())];
-  const double mix = draw.between(0.0, 1.0), height = draw.between(1.45, 2.0);
-  TriangleMesh mesh = a;
-  mesh.vertices = (1.0 - mix) * a.vertices + mix * b.vertices;
-  const double tall = height / (mesh.vertices.col(1).maxCoeff() - mesh.vertices.col(1).minCoeff());
-  mesh.vertices.col(0) *= tall * draw.between(0.92, 1.1);
-  mesh.vertices.col(1) *= tall;
-  mesh.vertices.col(2) *= tall * draw.between(0.92, 1.1);
-  BodyInput body;
-  body.name = "random-" + std::to_string(number);
-  body.bytes = write_obj(mesh);
-  return body;
-}
 
 struct Tally {
   std::map<std::string, int> failures;  // by code
@@ -84,8 +49,7 @@ void derive_one(const std::string& garment, const BodyInput& body, const DeriveR
 }  // namespace
 
 int derive_random(const DeriveRequest& request, const Arguments&) {
-  std::vector<TriangleMesh> family;
-  for (const std::string& name : kFamily) family.push_back(test::load_shared_body(name).surface);
+  const std::vector<TriangleMesh> family = shared_family();
   Tally tally;
   for (const std::string& garment : request.garments) {
     const auto stages = stage_store(request.stages, kDrapeStages);  // the reference drape alone is worth keeping

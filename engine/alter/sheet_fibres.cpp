@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/alter/sheet_fibres.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/core/units.h"
+
+namespace toile {
+namespace {
+
+constexpr double kShear = 5.0 * kRadianPerDegree;  // kept pieces are isometric only if shear is held too
+const double kSineOfShear = std::sin(kShear);
+constexpr double kQuarter = 0.5 * std::numbers::pi;
+
+Vec2 turned(const Vec2& v, double angle) {
+  return Eigen::Rotation2Dd(angle) * v;
+}
+
+}  // namespace
+
+Vec2 wanted_lengths(const Mat2& guide, bool folded) {
+  const Vec2 length = guide.colwise().norm().transpose();
+  return length.cwiseMin(folded ? 5.0 : 1.0).cwiseMax(0.2);
+}
+
+Mat2 fibre_projection(const Mat2& gradient, const Vec2& length) {
+  Vec2 u = gradient.col(0), v = gradient.col(1);
+  if (u.norm() < 1e-9) u = Vec2(v.y(), -v.x());
+  if (v.norm() < 1e-9) v = Vec2(-u.y(), u.x());
+  if (u.norm() < 1e-9) return Mat2(length.asDiagonal());
+  u.normalize();
+  v.normalize();
+  Mat2 shape;
+  shape.col(0) = u * length[0];
+  shape.col(1) = v * length[1];
+  const double across = u.x() * v.y() - u.y() * v.x(), along = u.dot(v);
+  if (across <= 0.0 || std::abs(along) > kSineOfShear) {  // beyond the shear limit: both fibres turn back half each
+    const double angle = std::atan2(across, along);
+    const double back = 0.5 * (angle - std::clamp(angle, kQuarter - kShear, kQuarter + kShear));
+    shape.col(0) = turned(shape.col(0), back);
+    shape.col(1) = turned(shape.col(1), -back);
+  }
+  const Mat2 moment = gradient * shape.transpose();
+  const double c = moment.trace(), s = moment(1, 0) - moment(0, 1), norm = std::sqrt(c * c + s * s);
+  if (norm < 1e-12) return shape;
+  return (Mat2() << c, -s, s, c).finished() / norm * shape;
+}
+
+}  // namespace toile
