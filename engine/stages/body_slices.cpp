@@ -15,9 +15,27 @@ constexpr double kThicknessBand = 0.008;  // half width about the mid-plane
 constexpr double kLegReach = 0.20;        // a leg's middle is at most this far to the side; hands are further
 constexpr double kCentral = 0.02;         // a piece with its middle this near to x = 0 lies on the mid-plane
 constexpr double kLimbGirth = 0.08;       // thinner pieces are fingers, specks or folds
+constexpr double kGapSought = 0.15;       // under the armpit
+constexpr double kGapStep = 0.002;        // m
 
 bool spans_middle(const SliceComponent& c, double within) {
   return c.low.x() <= within && c.high.x() >= -within;
+}
+
+// Highest level under the armpit, mean of both sides, at which the arm is this far from the trunk, m.
+std::optional<double> gap_level(const BodySlices& slices, double armpit, double width) {
+  double sum = 0.0;
+  for (const Side side : {Left, Right}) {
+    double above = armpit, last = 0.0, y = above;
+    while (last < width && y > armpit - kGapSought * slices.height()) {
+      above = y, y -= kGapStep;
+      const double gap = slices.arm_gap(y, side).value_or(0.0);
+      if (gap >= width) sum += 0.5 * (y + (above - y) * (gap - width) / (gap - last));
+      last = gap;
+    }
+    if (last < width) return std::nullopt;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -89,6 +107,13 @@ std::optional<double> BodySlices::arm_gap(double y, Side side) const {
 
 bool BodySlices::arm_apart(double y, Side side) const {
   return arm_gap(y, side).has_value();
+}
+
+std::optional<double> arms_meet(const BodySlices& slices, double armpit, double narrow, double wide) {
+  const auto low = gap_level(slices, armpit, wide * slices.height()),
+             high = gap_level(slices, armpit, narrow * slices.height());
+  if (!low || !high) return std::nullopt;
+  return *high + (*high - *low) * narrow / (wide - narrow);
 }
 
 }  // namespace toile

@@ -35,4 +35,9 @@ class BodySlices {
   double merge_within_;
 };
 
+// The level at which both arms would meet the trunk, mean of both, if the gaps between them went on closing upwards as
+// they do between two widths (fractions of the height), the uppermost places of which are sought under `armpit`. m.
+// None where a gap does not open so far.
+std::optional<double> arms_meet(const BodySlices& slices, double armpit, double narrow, double wide);
+
 }  // namespace toile

@@ -16,12 +16,12 @@ constexpr double kBustNear = 0.025, kBustFar = 0.09;    // distance from the mid
 constexpr double kBustSide = 0.05;                      // and where there is no foremost point
 constexpr double kBustCrest = 0.0015;                   // the profile must fall back by this under a crest
 constexpr double kBustCap = 0.0001;                     // what lies within this of the crest counts as crest
-constexpr double kBustStep = 0.001, kGapStep = 0.002;   // m
+constexpr double kBustStep = 0.001;                     // m
 // Where a chest has no foremost point, two estimates of its bust level share: under the armpit by a part of the way to
 // the neck, and under the place where arm and trunk would meet if the gap between them went on closing as it does
 // between two widths. Armpits are missing in scans, and gaps differ with build: neither alone is good enough.
 constexpr double kFlatUnderArmpit = -0.225;
-constexpr double kFlatUnderArms = 0.0228, kGapNarrow = 0.03, kGapWide = 0.06, kGapSought = 0.15;
+constexpr double kFlatUnderArms = 0.0228, kGapNarrow = 0.03, kGapWide = 0.06;
 // Fractions of the way from crotch to armpit:
 constexpr double kWaist = 0.60, kHip = 0.10;
 // Fractions of the way from armpit to the least neck:
@@ -116,27 +116,9 @@ class Finder {
     }
   }
 
-  // Highest level under the armpit, mean of both sides, at which the arm is this far from the trunk.
-  std::optional<double> gap_level(double width) const {
-    double sum = 0.0;
-    for (const Side side : {Left, Right}) {
-      double above = levels_.armpit, last = 0.0, y = above;
-      while (last < width && y > levels_.armpit - kGapSought * h_) {
-        above = y, y -= kGapStep;
-        const double gap = slices_.arm_gap(y, side).value_or(0.0);
-        if (gap >= width) sum += 0.5 * (y + (above - y) * (gap - width) / (gap - last));
-        last = gap;
-      }
-      if (last < width) return std::nullopt;
-    }
-    return sum;
-  }
-
   // The armpit's where arms hang or stand off so that the gap tells nothing.
   double arms_meet() const {
-    const auto narrow = gap_level(kGapNarrow * h_), wide = gap_level(kGapWide * h_);
-    if (!narrow || !wide) return levels_.armpit;
-    return *narrow + (*narrow - *wide) * kGapNarrow / (kGapWide - kGapNarrow);
+    return toile::arms_meet(slices_, levels_.armpit, kGapNarrow, kGapWide).value_or(levels_.armpit);
   }
 
   double flat_bust_level() const {

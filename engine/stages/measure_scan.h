@@ -3,6 +3,7 @@
 // slice, and where the scan had holes there is nothing to measure.
 //
 // scan -> mannequin of its height -> register the mannequin to the scan -> find_skeleton, measure_body on the result
+// and once more with a mannequin of the measures so found: what the scan lacks is then bridged by a body of its build.
 // Source: shared design page "registration", section 1.2: raw girths err by up to +13 mm. Metres, normalised frame.
 #pragma once
 
@@ -17,7 +18,7 @@ struct MeasureScanResult {
   TriangleMesh skin;  // the mannequin in the shape of the scan: closed, smooth, every point known
   RegistrationReport registration;
   // Measures that hang on a crown or a crotch that is cut away in the scan, told from the mannequin's: to about 5 mm,
-  // or 7 where a scanner has joined the thighs under it.
+  // and worse where thighs press on each other for centimetres under it.
   std::vector<std::string> estimated;
 };
 
