@@ -6,6 +6,7 @@
 #include "engine/core/drawing_marks.h"
 #include "engine/geometry/shelf_layout.h"
 #include "engine/render/canvas.h"
+#include "engine/render/label_room.h"
 #include "engine/render/palette.h"
 #include "engine/render/stretch_legend.h"
 
@@ -52,6 +53,7 @@ class PicturePainter {
   Image paint() {
     if (!options_.title.empty()) canvas_->text({kMargin, kMargin + 14}, 14, options_.title, kInk);
     for (std::size_t i = 0; i < drawing_.pieces.size(); ++i) paint_piece(i);
+    paint_labels();
     if (options_.stretch_scale) {
       const Vec2 corner(canvas_->width() - kMargin - kStretchLegendWidth, top_);
       draw_stretch_legend(*canvas_, corner, 220, *options_.stretch_scale);
@@ -84,7 +86,15 @@ class PicturePainter {
     for (const DrawingNotch& notch : piece.notches) canvas_->line(pixels(notch_outline(notch)), 1.2, kInk);
     for (const DrawingText& text : piece.texts) {
       const double height = std::min(14.0, std::max(scale_ * text.height, text.height >= kReadable ? kLeastText : 0.0));
-      if (height >= kLeastText) canvas_->text(pixel(text.at), height, text.text, kInk, Anchor::Middle, text.angle);
+      if (height >= kLeastText) labels_.push_back({pixel(text.at), height, text.text, text.angle});
+    }
+  }
+
+  void paint_labels() {
+    const std::vector<bool> room = labels_with_room(labels_);
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+      const Label& label = labels_[i];
+      if (room[i]) canvas_->text(label.at, label.height, label.text, kInk, Anchor::Middle, label.angle);
     }
   }
 
@@ -117,6 +127,7 @@ class PicturePainter {
   std::vector<Vec2> lows_;
   ShelfLayout layout_;
   std::optional<Canvas> canvas_;
+  std::vector<Label> labels_;  // of all pieces, in pixels
   Vec2 shift_ = Vec2::Zero();
   double scale_ = 1.0;
   int top_ = 0;
