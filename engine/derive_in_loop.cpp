@@ -2,6 +2,7 @@
 #include "engine/derive_in_loop.h"
 
 #include "engine/stages/build_fitting_map.h"
+#include "engine/stages/drape_series.h"
 
 namespace toile {
 namespace {
@@ -10,7 +11,7 @@ struct Scene {
   const Pattern& pattern;
   const PatternMesh& reference_mesh;
   const FittingMap& reference_fit;
-  const Body& target_body;
+  DrapeSeries& on_target;
   const GarmentMirrors& mirrors;
 };
 
@@ -30,7 +31,7 @@ DerivedPattern derive_and_drape(const Scene& scene, const Drape& shape, const Po
   pass.derivation.flipped_triangles = target.inside.flipped_triangles;
   pass.mesh = scene.reference_mesh;
   pass.mesh.rest = std::move(target.inside.rest);
-  pass.drape = drape_from(scene.pattern, pass.mesh, scene.target_body, shape, drape_options, progress);
+  pass.drape = scene.on_target.drape_from(scene.pattern, pass.mesh, shape, drape_options, progress);
   pass.fit = build_fitting_map(pass.mesh, pass.drape.drape);
   pass.rms_stretch_error = compare_fits(scene.reference_mesh, scene.reference_fit, pass.fit).whole.rms_stretch;
   return pass;
@@ -47,7 +48,8 @@ DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& referen
                               const GarmentMirrors& mirrors, const DerivePatternOptions& derive_options,
                               const DrapeOptions& drape_options, const DeriveInLoopOptions& options,
                               Progress* progress) {
-  const Scene scene{pattern, reference_mesh, reference_fit, target_body, mirrors};
+  DrapeSeries on_target(target_body);
+  const Scene scene{pattern, reference_mesh, reference_fit, on_target, mirrors};
   DerivedPattern best = derive_and_drape(scene, transported, nullptr, derive_options, drape_options, progress);
   std::vector<double> errors = {best.rms_stretch_error};
   while (static_cast<int>(errors.size()) < options.max_passes &&

@@ -3,6 +3,7 @@
 // + holds + pins. J.
 #pragma once
 
+#include "engine/core/helper.h"
 #include "engine/sim/cloth_contact.h"
 #include "engine/sim/contact.h"
 #include "engine/sim/node_mirror.h"
@@ -31,6 +32,7 @@ class DrapeEnergy {
   std::vector<Hold> holds;
   std::vector<Pin> pins;
   ClothContact* cloth_contact = nullptr;  // must outlive the energy; null: cloth passes through cloth
+  Helper* helper = nullptr;               // must outlive the energy; null: one thread. The same bytes either way
   const NodeMirror* mirror = nullptr;     // must outlive the energy; not null: sought among symmetric positions alone
 
   // Energy at `nodes` (#N x 3); `gradient` is overwritten, N.
@@ -53,6 +55,7 @@ class DrapeEnergy {
   const Cloth& cloth_;
   Contact* contact_;
   double gravity_;
+  Points3 touching_;  // #N x 3, the part of the gradient that contact makes
 };
 
 }  // namespace toile

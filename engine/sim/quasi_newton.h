@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Limited-memory BFGS over node positions, started from a prefactored matrix instead of a multiple of the identity,
-// with an Armijo line search and a cap on the largest move of a node. No allocation after construction. Source:
-// [Nocedal1980].
+// with an Armijo line search and a cap on the largest move of a node. No allocation after construction. Sums run over
+// the two halves of the nodes, which a helper may share: the same bytes with and without. Source: [Nocedal1980].
 #pragma once
 
 #include <functional>
 
+#include "engine/core/helper.h"
 #include "engine/core/types.h"
 #include "engine/numerics/row_solver.h"
 
@@ -37,6 +38,8 @@ class QuasiNewton {
 
   // Applied to every trial of the line search; none by default.
   void set_limit(Limit limit) { limit_ = std::move(limit); }
+  // Must outlive this; none by default.
+  void set_helper(Helper* helper) { helper_ = helper; }
 
   const Points3& nodes() const { return nodes_; }
   const Points3& gradient() const { return gradient_; }
@@ -44,12 +47,16 @@ class QuasiNewton {
   int evaluations() const { return evaluations_; }
 
  private:
+  template <class Work>
+  double halves(const Work& work);  // sum of work(first row, rows) over both
   void find_direction(RowSolver& matrix);
+  double longest_move();
   bool search_line(const Energy& energy);
   void remember();
 
   QuasiNewtonOptions options_;
   Limit limit_;
+  Helper* helper_ = nullptr;
   // Pairs are kept in single precision: they only shape the steps, and reading them is much of a step's cost.
   using Pairs = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 

@@ -66,6 +66,8 @@ class Relaxation {
 
   RelaxResult run(const Points3& start, Progress* progress) {
     QuasiNewton minimiser(energy_.cloth().node_count, options_.quasi_newton);
+    minimiser.set_helper(&helper_);
+    energy_.helper = &helper_;
     const QuasiNewton::Energy evaluate = [this](const Points3& x, Points3& g) { return energy_.evaluate(x, g); };
     if (energy_.contact()) freeze_at_start(start);
     if (energy_.cloth_contact) energy_.cloth_contact->refresh(start);
@@ -78,12 +80,15 @@ class Relaxation {
     watched_ = watched_means(start);
     while (result_.iterations < options_.iterations && !done()) {
       report(progress, "drape", static_cast<double>(result_.iterations) / options_.iterations);
+      helper_.call();
       const bool whole = run_round(minimiser, evaluate, progress);
       if (energy_.contact()) energy_.contact()->freeze_friction(minimiser.nodes());
       if (energy_.cloth_contact) energy_.cloth_contact->refresh(minimiser.nodes());
       minimiser.refresh(evaluate);
+      helper_.dismiss();
       judge(minimiser, whole);
     }
+    energy_.helper = nullptr;
     result_.nodes = minimiser.nodes();
     result_.energy = minimiser.energy();
     result_.evaluations = minimiser.evaluations();
@@ -168,6 +173,7 @@ class Relaxation {
   SparseMatrix base_;
   Eigen::VectorXd contact_diagonal_;
   RowSolver solver_;
+  Helper helper_;
   std::vector<Vec3> watched_;
   int looked_at_ = 0;  // iteration of the last look around
   double calm_residual_ = 0.0;

@@ -11,10 +11,39 @@
 #include "engine/sim/relax.h"
 #include "engine/sim/sewing.h"
 #include "engine/stages/arrange_panels.h"
+#include "engine/stages/drape_series.h"
 #include "engine/stages/find_node_mirror.h"
 #include "engine/stages/find_skeleton.h"
 
 namespace toile {
+
+// What drapes on one body may share.
+struct PreparedBody {
+  explicit PreparedBody(const Body& given) : body(given) {
+    if (body.kind == BodyKind::Human && !body.skeleton) body.skeleton = find_skeleton(body.surface).skeleton;
+  }
+
+  const BodyGuides& guides() {
+    if (!guides_) guides_ = find_body_guides(body, SurfaceTree(body.surface.vertices, body.surface.triangles));
+    return *guides_;
+  }
+
+  SurfaceField& field(bool armless) {
+    std::unique_ptr<SurfaceField>& field = fields_[armless];
+    if (!field) {
+      const TriangleMesh surface = armless ? body_without_arms(body) : body.surface;
+      field = std::make_unique<SurfaceField>(surface.vertices, surface.triangles);
+    }
+    return *field;
+  }
+
+  Body body;
+
+ private:
+  std::optional<BodyGuides> guides_;
+  std::array<std::unique_ptr<SurfaceField>, 2> fields_;
+};
+
 namespace {
 
 // The retry ladder: 0 as designed; 1 lifted more and pushed out harder at first; 2 grown from inside the body.
@@ -59,16 +88,16 @@ void check_options(const DrapeOptions& o) {
 
 class Draper {
  public:
-  Draper(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const DrapeOptions& options,
+  Draper(const Pattern& pattern, const PatternMesh& mesh, PreparedBody& body, const DrapeOptions& options,
          Progress* progress)
       : pattern_(pattern),
         mesh_(mesh),
-        body_(body),
+        prepared_(body),
+        body_(body.body),
         options_(options),
         progress_(progress),
         cloth_(make_cloth(pattern, mesh)) {
     thickness_ = options.thickness + cloth_.mean_edge * cloth_.mean_edge / (8 * options.sag_radius);
-    if (body_.kind == BodyKind::Human && !body_.skeleton) body_.skeleton = find_skeleton(body_.surface).skeleton;
   }
 
   DrapeResult from_flat() {
@@ -108,14 +137,12 @@ class Draper {
   // Which panel dresses what, told by `vertices` (#V x 3), and the field that suits.
   void prepare(const Points3& vertices) {
     if (body_.skeleton) {
-      guides_ = find_body_guides(body_, SurfaceTree(body_.surface.vertices, body_.surface.triangles));
+      guides_ = prepared_.guides();
       levels_ = levels_are_own_ ? guides_.levels : options_.drafted_for.value_or(guides_.levels);
       garment_ = classify_panels(pattern_, mesh_, vertices, guides_, levels_);
       result_.diagnostics.bodice = garment_.bodice;
     }
-    const bool armless = body_.skeleton && !garment_.bodice;
-    const TriangleMesh surface = armless ? body_without_arms(body_) : body_.surface;
-    field_ = std::make_unique<SurfaceField>(surface.vertices, surface.triangles);
+    field_ = &prepared_.field(body_.skeleton && !garment_.bodice);
   }
 
   void attempt_from_flat(int rung) {
@@ -328,14 +355,15 @@ class Draper {
 
   const Pattern& pattern_;
   const PatternMesh& mesh_;
-  Body body_;
+  PreparedBody& prepared_;
+  const Body& body_;
   const DrapeOptions& options_;
   Progress* progress_;
   Cloth cloth_;
   BodyGuides guides_;
   BodyLevels levels_;
   GarmentClass garment_;
-  std::unique_ptr<SurfaceField> field_;
+  SurfaceField* field_ = nullptr;
   double thickness_ = 0;
   std::vector<int> waist_;
   std::vector<Hold> holds_;
@@ -350,16 +378,25 @@ class Draper {
 DrapeResult drape(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const DrapeOptions& options,
                   Progress* progress) {
   check_options(options);
-  return Draper(pattern, mesh, body, options, progress).from_flat();
+  PreparedBody prepared(body);
+  return Draper(pattern, mesh, prepared, options, progress).from_flat();
 }
 
 DrapeResult drape_from(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const Drape& start,
                        const DrapeOptions& options, Progress* progress) {
+  return DrapeSeries(body).drape_from(pattern, mesh, start, options, progress);
+}
+
+DrapeSeries::DrapeSeries(const Body& body) : body_(std::make_unique<PreparedBody>(body)) {}
+DrapeSeries::~DrapeSeries() = default;
+
+DrapeResult DrapeSeries::drape_from(const Pattern& pattern, const PatternMesh& mesh, const Drape& start,
+                                    const DrapeOptions& options, Progress* progress) {
   check_options(options);
   if (start.nodes.rows() != mesh.node_count || !start.nodes.allFinite())
     throw Error(ErrorCode::GarmentInvalid, "garment",
                 "the given drape does not have one finite position for every node of the sewn garment");
-  return Draper(pattern, mesh, body, options, progress).from_start(start.nodes);
+  return Draper(pattern, mesh, *body_, options, progress).from_start(start.nodes);
 }
 
 }  // namespace toile

@@ -47,6 +47,22 @@ TEST(RowSolver, IsExactlySymmetric) {
   EXPECT_NEAR(one, other, 1e-12 * std::abs(one));
 }
 
+TEST(RowSolver, AnswersTheSameBytesWithAndWithoutAHelper) {
+  RowSolver solver;
+  ASSERT_TRUE(solver.factor(grid_matrix(30, 0.1)));
+  Points3 alone(900, 3), helped(900, 3);
+  solver.solve(ramp(900), alone);
+  SpareThreads threads(1);
+  const LendThreads lend(&threads);
+  Helper helper;
+  helper.call();
+  ASSERT_FALSE(threads.any_idle());
+  for (int i = 0; i < 50; ++i) {
+    solver.solve(ramp(900), helped, &helper);
+    ASSERT_EQ(alone, helped);
+  }
+}
+
 TEST(RowSolver, RefusesWhatIsNotPositiveDefiniteAndRecovers) {
   RowSolver solver;
   EXPECT_FALSE(solver.factor(grid_matrix(5, -4.5)));

@@ -44,5 +44,32 @@ TEST(QuasiNewton, EnergyNeverRisesOnAnAcceptedStep) {
   EXPECT_LT(minimiser.energy(), 0.1 * start);
 }
 
+TEST(QuasiNewton, TakesTheSameStepsWithAndWithoutAHelper) {
+  const test::GridGarment garment = test::grid_garment({{"sheet", 0.4, 0.4, 16, 16, 0.25}});
+  const Cloth cloth = make_cloth(garment.pattern, garment.mesh);
+  SparseMatrix matrix = membrane_bound(cloth);
+  for (int i = 0; i < cloth.node_count; ++i) matrix.coeffRef(i, i) += 1.0;
+  const auto minimised = [&](Helper* helper) {
+    CylinderField body(0.1);
+    Contact contact(cloth, body, {});
+    DrapeEnergy energy(cloth, &contact, kGravity);
+    energy.helper = helper;
+    const Points3 nodes = test::random_points(cloth.node_count, 0.2, 4);
+    RowSolver solver;
+    EXPECT_TRUE(solver.factor(matrix));
+    QuasiNewton minimiser(cloth.node_count, {});
+    minimiser.set_helper(helper);
+    const QuasiNewton::Energy evaluate = [&](const Points3& x, Points3& g) { return energy.evaluate(x, g); };
+    minimiser.start(nodes, evaluate);
+    for (int k = 0; k < 60; ++k) minimiser.step(evaluate, solver);
+    return minimiser.nodes();
+  };
+  SpareThreads threads(1);
+  const LendThreads lend(&threads);
+  Helper helper;
+  helper.call();
+  EXPECT_EQ(minimised(nullptr), minimised(&helper));
+}
+
 }  // namespace
 }  // namespace toile
