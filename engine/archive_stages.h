@@ -157,8 +157,8 @@ void archive(A& a, AlteredRegion& v) {
 }
 template <class A>
 void archive(A& a, SheetStress& v) {
-  auto& [energy, p95, p98, way, area, over] = v;
-  a(energy, p95, p98, way, area, over);
+  auto& [energy, p95, p98, way, shift, area, over] = v;
+  a(energy, p95, p98, way, shift, area, over);
 }
 template <class A>
 void archive(A& a, Tear& v) {
@@ -194,8 +194,8 @@ void archive(A& a, SewnPiece& v) {
 }
 template <class A>
 void archive(A& a, SewnSeam& v) {
-  auto& [added, length_a, length_b] = v;
-  a(added, length_a, length_b);
+  auto& [added, length_a, length_b, eased] = v;
+  a(added, length_a, length_b, eased);
 }
 template <class A>
 void archive(A& a, SewnPattern& v) {

@@ -14,7 +14,7 @@ namespace {
 constexpr double kHopeless = 2.0;  // times the allowed stretch
 
 std::string hopeless_pass(const PanelTearing& tearing, const char* pass, double stretch_limit) {
-  if (tearing.done || (!tearing.overlaps && share_of_limit(tearing.after, stretch_limit) < kHopeless)) return {};
+  if (tearing.done || (!tearing.overlaps && share_of_strain(tearing.after, stretch_limit) < kHopeless)) return {};
   return print_text("%s leaves %.0f %% stretch; ", pass, 100.0 * tearing.after.p95) + tearing.reason;
 }
 

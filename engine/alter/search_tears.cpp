@@ -11,7 +11,8 @@ namespace toile {
 namespace {
 
 constexpr double kLeastWay = 0.004;  // m: what strain moves by less is below the accuracy of measuring    [ISO20685]
-constexpr double kProbe = 0.004;     // m, between the places where a line is looked at
+constexpr double kReach = 0.4;    // m: cloth that is longer may be strained less, so that its ends are moved no farther
+constexpr double kProbe = 0.004;  // m, between the places where a line is looked at
 
 class Search {
  public:
@@ -149,9 +150,17 @@ class Search {
 
 }  // namespace
 
-double share_of_limit(const SheetStress& stress, double limit) {
+double share_of_strain(const SheetStress& stress, double limit) {
   const double rms = stress.area > 0.0 ? std::sqrt(0.5 * stress.energy / stress.area) : 0.0;
   return std::min({stress.p95 / limit, 2.0 * rms / limit, stress.way / kLeastWay});
+}
+
+double share_of_shift(const SheetStress& stress, double limit) {
+  return std::min(stress.shift / (limit * kReach), stress.way / kLeastWay);
+}
+
+double share_of_limit(const SheetStress& stress, double limit) {
+  return std::max(share_of_strain(stress, limit), share_of_shift(stress, limit));
 }
 
 double farthest_outside(const Sheet& sheet) {

@@ -8,6 +8,7 @@ namespace toile {
 namespace {
 
 constexpr double kSamePlace = 1e-4;     // m: of one ply
+constexpr double kLeastEdge = 3e-4;     // m: shorter chains are left out
 constexpr double kSameCorner = 1.5e-3;  // m: corners of two plies nearer than this meet
 
 struct Corner {
@@ -141,6 +142,15 @@ LineCorners share_corners(const Pattern& pattern, const PatternMesh& mesh, std::
   return CornerSharing(pattern, mesh, pieces).run();
 }
 
+double chain_length(const PieceBorder& piece, const BorderChain& chain) {
+  double length = 0.0;
+  for (std::size_t k = 1; k < chain.vertices.size(); ++k)
+    length += (piece.vertices[static_cast<std::size_t>(chain.vertices[k])].rest -
+               piece.vertices[static_cast<std::size_t>(chain.vertices[k - 1])].rest)
+                  .norm();
+  return length;
+}
+
 std::vector<BorderChain> border_chains(const std::vector<PieceBorder>& pieces) {
   std::vector<BorderChain> chains;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
@@ -159,6 +169,9 @@ std::vector<BorderChain> border_chains(const std::vector<PieceBorder>& pieces) {
       chain.along.at_to = piece.borders[at].at_to;
     }
   }
+  std::erase_if(chains, [&](const BorderChain& chain) {
+    return chain_length(pieces[static_cast<std::size_t>(chain.piece)], chain) < kLeastEdge;
+  });
   return chains;
 }
 

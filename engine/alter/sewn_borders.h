@@ -29,6 +29,7 @@ struct BorderChain {
   std::vector<int> vertices;  // of the piece, in order
   RegionBorder along;         // neighbour, track and places of its two ends; from, to: points or -1
 };
+double chain_length(const PieceBorder& piece, const BorderChain& chain);  // of its cloth
 
 // A line that is sewn or hangs free: an edge of a panel or a lip of a cut.
 struct SeamLine {
@@ -44,7 +45,7 @@ using LineCorners = std::map<SeamLine, std::vector<double>>;
 // Adds the other ply's corners to `pieces`, then returns where they all are.
 LineCorners share_corners(const Pattern& pattern, const PatternMesh& mesh, std::vector<PieceBorder>& pieces);
 
-// Requires shared corners.
+// Requires shared corners. What is shorter than a third of a millimetre is no chain.
 std::vector<BorderChain> border_chains(const std::vector<PieceBorder>& pieces);
 
 }  // namespace toile

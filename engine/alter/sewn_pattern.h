@@ -27,6 +27,7 @@ struct SewnPiece {
 struct SewnSeam {
   bool added = false;  // made by the alteration; else a part of an original seam
   double length_a = 0.0, length_b = 0.0;
+  double eased = 0.0;  // m, by which the wanted pattern has a longer than b there; 0 for seams that were added
 };
 
 struct SewnPattern {

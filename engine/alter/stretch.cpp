@@ -66,6 +66,7 @@ SheetStress measure_stress(const Sheet& sheet, double limit) {
   using Strains = std::vector<std::pair<double, double>>;  // value, area
   Strains tension;
   std::array<Strains, 2> along;  // weft, warp
+  Vec2 lengthened = Vec2::Zero();
   for (std::size_t f = 0; f < sheet.faces.size(); ++f) {
     if (sheet.folded[f]) continue;
     const double area = 0.5 * edges_to(sheet, sheet.faces[f], &SheetVertex::flat).determinant();
@@ -74,6 +75,7 @@ SheetStress measure_stress(const Sheet& sheet, double limit) {
     stress.energy += area * (now - fibre_projection(now, length)).squaredNorm();
     stress.area += area;
     tension.emplace_back(now.colwise().norm().maxCoeff() - 1.0, area);
+    lengthened += area * (now.colwise().norm().transpose() - length);
     for (int k = 0; k < 2; ++k) along[static_cast<std::size_t>(k)].emplace_back(now.col(k).norm() - 1.0, area);
   }
   const auto percentile = [&](Strains& strains, double share) {
@@ -88,6 +90,7 @@ SheetStress measure_stress(const Sheet& sheet, double limit) {
   const Vec2 extent = extent_of(sheet);
   for (int k = 0; k < 2; ++k)
     stress.way = std::max(stress.way, extent[k] * percentile(along[static_cast<std::size_t>(k)], 0.95));
+  if (stress.area > 0.0) stress.shift = std::max(0.0, extent.cwiseProduct(lengthened).maxCoeff() / stress.area);
   for (const auto& [value, area] : tension)
     if (value > limit) stress.over += area;
   if (stress.area > 0.0) stress.over /= stress.area;

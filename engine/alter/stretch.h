@@ -29,6 +29,7 @@ struct SheetStress {
   double p95 = 0.0;     // of max(|Gu|, |Gv|) - 1, area weighted over interior and border: tension only
   double p98 = 0.0;     // ... which near the tips of tears and darts, where strain is singular, tells more of the mesh
   double way = 0.0;     // m, how far the p95 of weft or warp strain brings the cloth's edges off: strain times extent
+  double shift = 0.0;   // m, how far the mean of weft or warp strain brings the cloth's edges off
   double area = 0.0;    // of the cloth, m^2
   double over = 0.0;    // share of the area above `limit`
 };

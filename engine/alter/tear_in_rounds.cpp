@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/alter/tear_units.h"
+#include "engine/alter/search_tears.h"
 
 namespace toile {
 namespace {
@@ -33,7 +33,8 @@ class Tearing {
  private:
   double limit() const { return options_.candidates.stretch_limit; }
   void stretch_all();
-  bool active(std::size_t p) const { return !locked_[p] && result_.panels[p].after.p95 >= limit(); }
+  bool within(const SheetStress& stress) const { return stress.p95 < limit() && share_of_shift(stress, limit()) < 1.0; }
+  bool active(std::size_t p) const { return !locked_[p] && !within(result_.panels[p].after); }
   void try_panel(std::size_t p);
   void try_partners();
   void try_partner(const PartnerPlace& partner);
@@ -60,7 +61,7 @@ void Tearing::stretch_all() {
     PanelTearing& panel = result_.panels[p];
     panel.before = measure_stress(first_[p], limit());
     // The plain map is the start; where it has no tension it stays, and there is nothing to relax.
-    if (!locked_[p] && panel.before.p95 >= limit()) {
+    if (!locked_[p] && !within(panel.before)) {
       relax(first_[p], options_.candidates.tear.relaxation, progress_);
       panel.before = measure_stress(first_[p], limit());
     }
@@ -166,7 +167,7 @@ bool Tearing::replay(std::size_t p, std::size_t without, Sheet& sheet) {
   const std::vector<MadeTear>& tears = result_.panels[p].tears;
   for (std::size_t i = 0; i < tears.size(); ++i)
     if (i != without && !propagate_tear(sheet, tears[i].tear, options_.candidates.tear, progress_).opened) return false;
-  return measure_stress(sheet, limit()).p95 < limit();
+  return within(measure_stress(sheet, limit()));
 }
 
 void Tearing::undo_redundant(std::size_t p) {
@@ -187,7 +188,7 @@ void Tearing::undo_redundant(std::size_t p) {
 void Tearing::conclude() {
   for (std::size_t p = 0; p < first_.size(); ++p) {
     PanelTearing& panel = result_.panels[p];
-    if (panel.after.p95 < limit()) undo_redundant(p);
+    if (within(panel.after)) undo_redundant(p);
     panel.done = panel.after.p95 < kNearEnough * limit();
     if (panel.done) continue;
     panel.reason = locked_[p] ? "the panel is locked" : "no further tear would release enough of the stretch";

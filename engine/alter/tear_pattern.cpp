@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "engine/alter/choose_sets.h"
+#include "engine/alter/couple_plies.h"
 #include "engine/alter/lay_sheet.h"
 #include "engine/alter/tear_in_rounds.h"
 #include "engine/core/work_off.h"
@@ -236,7 +237,7 @@ void carry_out(Sheet& sheet, const Sheet& planned, PanelTearing& panel, std::vec
 
 void conclude(const Sheet& sheet, bool locked, double limit, PanelTearing& panel) {
   panel.overlaps = !panel.tears.empty() && farthest_outside(sheet) > kMostOutside;
-  panel.done = share_of_limit(panel.after, limit) < kNearEnough && !panel.overlaps;
+  panel.done = share_of_strain(panel.after, limit) < kNearEnough && !panel.overlaps;
   panel.reason = panel.done       ? ""
                  : locked         ? "the panel is locked"
                  : panel.overlaps ? "kept cloth overlaps the outline"
@@ -259,6 +260,10 @@ TornPattern tear_pattern(const Pattern& pattern, const Stretching& fine, const S
     const bool tense = !panel.tears.empty() || share_of_limit(measure_stress(torn.sheets[p], limit), limit) >= 1.0;
     if (!pattern.panels[p].locked && tense)
       carry_out(torn.sheets[p], planned[p], panel, torn.jobs[p], options, progress);
+  });
+  couple_plies(pattern, fine.mesh, fine.wanted, limit, options.candidates.tear.relaxation, torn.sheets, progress);
+  work_off(torn.sheets.size(), [&](std::size_t p) {
+    PanelTearing& panel = torn.panels[p];
     panel.after = measure_stress(torn.sheets[p], limit);
     conclude(torn.sheets[p], pattern.panels[p].locked, limit, panel);
   });

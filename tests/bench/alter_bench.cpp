@@ -22,7 +22,7 @@ namespace {
 constexpr double kPercent = 100.0, kMm = 1e3;
 constexpr int kSheetColumns = 5, kSheetWidth = 620;
 // Gates of the acceptance lines.
-constexpr double kShareOfIdeal = 1.25, kFartherOff = 2e-3, kBalance = 0.01, kFewFlags = 0.1,
+constexpr double kShareOfIdeal = 1.25, kFartherOff = 2e-3, kBalance = 0.01, kAlike = 5e-4, kFewFlags = 0.1,
                  kNarrow = 0.95;  // widths are measured to a few per cent
 
 struct Request {
@@ -134,8 +134,9 @@ std::vector<std::string> words_of(const Row& row) {
       words.push_back(fixed(value, 2));
   else
     words.insert(words.end(), 5, row.fit ? "failed" : "-");
-  for (const std::string& word : {std::to_string(o.most_cuts), fixed(kMm * o.narrowest, 0),
-                                  fixed(kPercent * o.balance, 2), std::to_string(o.flags), fixed(o.seconds, 2)})
+  for (const std::string& word :
+       {std::to_string(o.most_cuts), fixed(kMm * o.narrowest, 0), fixed(kPercent * o.balance, 2),
+        fixed(kMm * o.plies, 2), std::to_string(o.flags), fixed(o.seconds, 2)})
     words.push_back(word);
   return words;
 }
@@ -169,6 +170,8 @@ int summarise(const std::vector<Row>& rows, const AlterOptions& job) {
   if (rows.empty()) return 1;
   bool met = judge(rows, "without a flag", 1.0 - kFewFlags, [](const Row& row) { return row.chosen.flags == 0; });
   met &= judge(rows, "areas balance within 1 %", 1.0, [](const Row& row) { return row.chosen.balance <= kBalance; });
+  met &= judge(rows, "both sides of every seam alike within 0.5 mm", 1.0,
+               [](const Row& row) { return row.chosen.plies <= kAlike; });
   met &= judge(rows, "no side cut into more often than allowed", 1.0,
                [&](const Row& row) { return row.chosen.most_cuts <= job.max_tears_per_side; });
   met &= judge(rows, "nothing let in narrower than the least strip", 1.0, [&](const Row& row) {
@@ -197,7 +200,7 @@ int bench_alter(const Arguments& arguments) {
   const auto stages = stage_store(request.stages);
   Table table({"garment", "body", "operations", "tears", "greedy", "its p95 %", "p95 % before", "after",
                "stretch % before", "ideal", "after", "position mm ideal", "after", "cuts", "narrowest mm", "balance %",
-               "flags", "CPU s"});
+               "plies mm", "flags", "CPU s"});
   std::vector<Row> rows;
   std::vector<Image> sheet;
   for (const AlterPair& pair : request.pairs) {

@@ -25,6 +25,7 @@ struct AlterOutcome {
   int most_cuts = 0;                               // into one side of a panel
   double narrowest = 0.0;                          // m, of what is let in and needs cloth; 0 if nothing is
   double balance = 0.0;                            // of areas, relative
+  double plies = 0.0;                              // m, the most that both sides of a seam differ from what is eased
   double seconds = 0.0;                            // of CPU, the alteration alone
 };
 AlterOutcome outcome_of(const AlterPatternResult& result);

@@ -161,6 +161,17 @@ TEST(AlterPattern, ALargerAllowedStretchNeedsNoOperation) {
   EXPECT_TRUE(alter(sheet(), scaled(1.04, 1), options).ticket.operations.empty());
 }
 
+// 2.5 % are within the allowed 3, but of a metre they are a hem 25 mm too high.
+TEST(AlterPattern, LongClothKeepsLessStrainThanShortCloth) {
+  const GridGarment tall = grid_garment({{"leg", 0.3, 1.0, 15, 50, 0.2}});
+  const AlterPatternResult lengthened = alter(tall, scaled(1, 1.025));
+  ASSERT_EQ(lengthened.ticket.operations.size(), 1u);
+  EXPECT_EQ(lengthened.ticket.operations[0].kind, OperationKind::Lengthen);
+  EXPECT_NEAR(lengthened.inserted_area * kPerCm2, 75, 1);
+  const GridGarment low = grid_garment({{"cuff", 0.3, 0.3, 15, 15, 0.2}});
+  EXPECT_TRUE(alter(low, scaled(1, 1.025)).ticket.operations.empty());
+}
+
 TEST(AlterPattern, SymmetryWidensBothSidesAlike) {
   const GridGarment garment = on_the_mid_plane(sheet(0.02, 0.0));
   AlterPatternOptions options;

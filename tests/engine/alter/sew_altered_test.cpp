@@ -140,6 +140,25 @@ TEST(SewAltered, AsksForNewClothWhereThePanelsOwnIsTooSmall) {
   EXPECT_LT(result.area_imbalance, 1e-9);
 }
 
+// Both plies of every seam as drawn, against what the target eases there.
+void expect_plies_alike(const SewnPattern& sewn) {
+  for (std::size_t s = 0; s < sewn.seams.size(); ++s) {
+    const Seam& seam = sewn.pattern.seams[s];
+    const auto length = [&](const SeamSide& side) { return edge_length(sewn.pattern.panel(side.panel), side.edge); };
+    EXPECT_NEAR(length(seam.a) - length(seam.b), sewn.seams[s].eased, kSameLength)
+        << sewn.pattern.panel(seam.a.panel).name << " and " << sewn.pattern.panel(seam.b.panel).name;
+  }
+}
+
+// The kept cloth keeps 2 % of stretch lengthwise, so it is 12 mm shorter than its place in the target.
+TEST(SewAltered, AStripIsAsLongAsTheStrainedClothItIsSewnTo) {
+  const AlterPatternResult result = alter(sheet(), scaled(1.2, 1.02));
+  ASSERT_EQ(result.sewn.pieces.size(), 2u);
+  expect_sound(result.sewn);
+  expect_plies_alike(result.sewn);
+  EXPECT_NEAR(result.sewn.seams.at(0).length_a, 0.6, 2e-3);
+}
+
 // A panel with a dart in its lower edge; the target has the dart farther to the right and is longer below its mouth.
 TEST(SewAltered, AStripAcrossADartThatMovesMeetsTheClothOrThePanelIsCutAnew) {
   Pattern pattern;

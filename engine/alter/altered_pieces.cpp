@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/alter/altered_pieces.h"
+
+#include <algorithm>
+
+#include "engine/alter/fit_new_cloth.h"
+#include "engine/alter/kept_cloth.h"
+#include "engine/geometry/inner_point.h"
+
+namespace toile {
+namespace {
+
+constexpr double kMostTurnedOver = 0.005;  // share of a piece's area
+constexpr double kLeastTurnIn = 1e-3;      // m: a cut is opened by this much even without seam allowance
+constexpr double kLeastEdge = 3e-4;        // m: shorter chains are left out
+
+void move_rest(const PolygonPlace& place, PieceMap& map) {
+  for (Eigen::Index v = 0; v < map.rest.rows(); ++v) map.rest.row(v) = place(map.rest.row(v).transpose()).transpose();
+}
+
+class Cutting {
+ public:
+  Cutting(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest, const TornPattern& inserting,
+          const TornPattern& removing, const AlterPatternResult& result, RecutPanels& recut)
+      : pattern_(pattern),
+        mesh_(mesh),
+        target_rest_(target_rest),
+        inserting_(inserting),
+        removing_(removing),
+        alteration_(result),
+        recut_(recut) {}
+
+  AlteredPieces run() {
+    for (int p = 0; p < static_cast<int>(pattern_.panels.size()); ++p)
+      if (!add_panel(p)) return std::move(cut_);
+    cut_.corners = share_corners(pattern_, mesh_, cut_.borders);
+    cut_.chains = border_chains(cut_.borders);
+    cut_.seams = ChainSeams(cut_.borders, cut_.chains, cut_.corners).find(pattern_, mesh_, target_rest_, cut_.flags);
+    fit_new_cloth(cut_.chains, cut_.seams, mesh_.target_edge_length, cut_.borders, cut_.pieces);
+    draw_pieces();
+    if (!all_sound()) cut_.pieces.clear();
+    return std::move(cut_);
+  }
+
+ private:
+  std::vector<bool> let_out(const PanelAlteration& panel) const;
+  bool add_panel(int p);
+  std::string try_panel(int p, const AlteredParts& parts, bool recut);
+  void draw_pieces();
+  bool all_sound();
+
+  const Pattern& pattern_;
+  const PatternMesh& mesh_;
+  const Points2& target_rest_;
+  const TornPattern &inserting_, &removing_;
+  const AlterPatternResult& alteration_;
+  RecutPanels& recut_;
+  AlteredPieces cut_;
+};
+
+std::vector<bool> Cutting::let_out(const PanelAlteration& panel) const {
+  std::vector<bool> from_allowance;
+  for (const AlteredRegion& region : panel.insertions)
+    from_allowance.push_back(region.operation >= 0 &&
+                             alteration_.ticket.operations[static_cast<std::size_t>(region.operation)].fabric ==
+                                 FabricNeed::WithinAllowance);
+  return from_allowance;
+}
+
+// False, when not even the target panel can be cut.
+bool Cutting::add_panel(int p) {
+  const auto index = static_cast<std::size_t>(p);
+  const PanelAlteration& panel = alteration_.panels[index];
+  const bool altered = !panel.insertions.empty() || !panel.removals.empty();
+  const AlteredParts whole = whole_panel(mesh_, target_rest_, panel.target, p);
+  const bool known = recut_.contains(p);
+  std::string problem = known ? recut_.at(p).why : "";
+  if (problem.empty()) {
+    const AlteredParts parts =
+        altered ? part_altered_panel(mesh_, target_rest_, inserting_.sheets[index], removing_.sheets[index], panel,
+                                     let_out(panel), std::max(pattern_.seam_allowance, kLeastTurnIn))
+                : whole;
+    problem = parts.problem.empty() ? try_panel(p, parts, false) : parts.problem;
+  }
+  if (problem.empty()) return true;
+  const std::string hopeless = try_panel(p, whole, true);
+  if (hopeless.empty()) {
+    if (!known) recut_.emplace(p, CutAnew{problem, std::nullopt});
+    return true;
+  }
+  cut_.flags.push_back("panel " + panel.panel + " cannot be sewn: " + hopeless);
+  cut_.pieces.clear();
+  return false;
+}
+
+// Adds the panel's pieces; adds none and says why, when their cloth cannot be sewn.
+std::string Cutting::try_panel(int p, const AlteredParts& parts, bool recut) {
+  const auto index = static_cast<std::size_t>(p);
+  const ClothSource source(inserting_.sheets[index], removing_.sheets[index], alteration_.panels[index]);
+  std::vector<SewnPiece> pieces;
+  std::vector<PieceBorder> borders;
+  for (std::size_t i = 0; i < parts.parts.size(); ++i) {
+    const AlteredPart& part = parts.parts[i];
+    PieceCloth cloth = recut || part.insertion >= 0 ? identical_cloth(parts, i, inserting_.sheets[index].edge_length)
+                                                    : source.of(parts, i);
+    if (!cloth.problem.empty()) return cloth.problem;
+    const bool own_cloth = recut && recut_.contains(p) && recut_.at(p).in_own_cloth;
+    if (own_cloth) move_rest(*recut_.at(p).in_own_cloth, cloth.map);
+    if (cloth.turned_over > kMostTurnedOver) return "its cloth turns over";
+    PieceBorder border{p, static_cast<int>(i), {}, part.loop};
+    std::vector<Vec2> outline;
+    for (int v = 0; v < cloth.map.border_count; ++v) outline.emplace_back(cloth.map.rest.row(v));
+    if (!is_simple_polygon(outline)) return "the outline of a kept piece crosses itself";
+    for (std::size_t k = 0; k < part.loop.size(); ++k) {
+      const int point = part.loop[k].from;
+      border.vertices.push_back({point, parts.points[static_cast<std::size_t>(point)],
+                                 cloth.map.rest.row(cloth.border[k]), parts.corner[static_cast<std::size_t>(point)]});
+    }
+    borders.push_back(std::move(border));
+    pieces.push_back({p, part.insertion, recut, own_cloth, cloth.strain, cloth.turned_over, cloth.map});
+  }
+  std::move(pieces.begin(), pieces.end(), std::back_inserter(cut_.pieces));
+  std::move(borders.begin(), borders.end(), std::back_inserter(cut_.borders));
+  return {};
+}
+
+void Cutting::draw_pieces() {
+  cut_.edges.assign(cut_.chains.size(), {PanelId(-1), 0});
+  for (std::size_t i = 0; i < cut_.borders.size(); ++i) {
+    const SewnPiece& piece = cut_.pieces[i];
+    const auto p = static_cast<std::size_t>(piece.panel);
+    DrawnPiece drawn{{}, {}, static_cast<bool>(mesh_.panel_reversed[p])};
+    std::vector<std::size_t> own;
+    for (std::size_t c = 0; c < cut_.chains.size(); ++c)
+      if (cut_.chains[c].piece == static_cast<int>(i)) own.push_back(c);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      drawn.chains.push_back(&cut_.chains[own[k]]);
+      cut_.edges[own[k]] = {PanelId(static_cast<int>(i)), static_cast<int>(drawn.reversed ? own.size() - 1 - k : k)};
+    }
+    drawn.edges = draw_piece_edges(cut_.borders[i], drawn.chains,
+                                   piece.insertion < 0 && !piece.recut ? &pattern_.panels[p] : nullptr);
+    cut_.drawn.push_back(std::move(drawn));
+  }
+}
+
+// Small and narrow pieces can be nothing, or touch themselves, once they are drawn: their panel is cut anew, and where
+// that is no cure either, nothing is sewn.
+bool Cutting::all_sound() {
+  bool sound = true;
+  for (std::size_t i = 0; i < cut_.drawn.size(); ++i) {
+    if (cut_.drawn[i].edges.sound) continue;
+    sound = false;
+    const int p = cut_.pieces[i].panel;
+    const std::string problem = "the outline of a piece encloses nothing or touches itself";
+    if (recut_.emplace(p, CutAnew{problem, std::nullopt}).second) continue;
+    cut_.flags.push_back("panel " + pattern_.panels[static_cast<std::size_t>(p)].name + " cannot be sewn: " + problem);
+  }
+  return sound;
+}
+
+}  // namespace
+
+AlteredPieces cut_altered_pieces(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
+                                 const TornPattern& inserting, const TornPattern& removing,
+                                 const AlterPatternResult& result, RecutPanels& recut) {
+  return Cutting(pattern, mesh, target_rest, inserting, removing, result, recut).run();
+}
+
+}  // namespace toile
