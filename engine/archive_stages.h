@@ -26,6 +26,11 @@ void archive(A& a, BodyLevels& v) {
   a(shoulder_y, armpit_y, waist_y, crotch_y);
 }
 template <class A>
+void archive(A& a, BodyGuides& v) {
+  auto& [levels, shoulder_z, arm, leg, arm_direction] = v;
+  a(levels, shoulder_z, arm, leg, arm_direction);
+}
+template <class A>
 void archive(A& a, DrapeOptions& v) {
   auto& [friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, stop_settled, lift,
          drafted_for, pin_openings, keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, self_contact,

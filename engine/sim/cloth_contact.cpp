@@ -109,13 +109,15 @@ bool ClothContact::has_node(int triangle, int node) const {
   return corner(triangle, 0) == node || corner(triangle, 1) == node || corner(triangle, 2) == node;
 }
 
-void ClothContact::refresh(const Points3& nodes) {
+bool ClothContact::refresh(const Points3& nodes) {
+  const bool pierced = !piercings_.empty();
   if (fresh_) {
     const double moved = std::sqrt((nodes - seen_at_).rowwise().squaredNorm().maxCoeff());
     reach_ = std::clamp(kReachPerMove * moved, std::max(kLeastReach * cloth_.mean_edge, 2 * options_.thickness),
                         kMostReach * cloth_.mean_edge);
   }
   seen_at_ = nodes;
+  moved_squared_ = 0;
   fresh_ = true;
   stale_ = false;
   hindered_ = false;
@@ -131,6 +133,7 @@ void ClothContact::refresh(const Points3& nodes) {
   for (const PiercedTriangle& piercing : piercings_) add_push(nodes, piercing);
   if (options_.mirror) planes_.reflect(options_.mirror->image);
   planes_.sort();
+  return pierced || !piercings_.empty();
 }
 
 // Triangles within reach, out of candidates that are searched for anew only when nodes have moved too far.
@@ -141,8 +144,12 @@ void ClothContact::find_near(const Points3& nodes) {
     candidates_ = patches_.find_near(nodes, most);
     searched_at_ = nodes;
     searched_ = true;
+    involved_.clear();
+    for (const auto& [f, g] : candidates_) involved_.push_back(f), involved_.push_back(g);
+    std::sort(involved_.begin(), involved_.end());
+    involved_.erase(std::unique(involved_.begin(), involved_.end()), involved_.end());
   }
-  for (Eigen::Index f = 0; f < triangles_.rows(); ++f) {
+  for (const int f : involved_) {
     const Vec3 a = nodes.row(triangles_(f, 0)), b = nodes.row(triangles_(f, 1)), c = nodes.row(triangles_(f, 2));
     boxes_[static_cast<std::size_t>(f)] = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
     centre_.row(f) = ((a + b + c) / 3).transpose();
@@ -317,9 +324,11 @@ void ClothContact::add_push(const Points3& nodes, const PiercedTriangle& piercin
 
 void ClothContact::limit(const Points3& from, Points3& to) {
   const double ball = 0.49 * (reach_ - options_.thickness);  // what is out of reach cannot begin to repel
+  moved_squared_ = 0;
   for (Eigen::Index i = 0; i < to.rows(); ++i) {
     const Vec3 seen = seen_at_.row(i), away = to.row(i).transpose() - seen;
     const double far = away.squaredNorm();
+    moved_squared_ = std::max(moved_squared_, std::min(far, ball * ball));
     if (far <= ball * ball) continue;
     stale_ = true;
     to.row(i) = (seen + ball / std::sqrt(far) * away).transpose();

@@ -34,8 +34,8 @@ class ClothContact {
   // `cloth` must outlive this; `mesh` need not.
   ClothContact(const Cloth& cloth, const PatternMesh& mesh, const ClothContactOptions& options);
 
-  // Finds the pairs at `nodes` (#N x 3). Where cloth is pierced the energy changes: evaluate again.
-  void refresh(const Points3& nodes);
+  // Finds the pairs at `nodes` (#N x 3). True where cloth is or was pierced: the energy changes, evaluate again.
+  bool refresh(const Points3& nodes);
 
   // Forces between layers as found by the last refresh.
   const LayerPairs& pairs() const { return pairs_; }
@@ -48,8 +48,9 @@ class ClothContact {
   bool stale() const { return stale_; }
   // Some node was stopped by the plane of a pair.
   bool hindered() const { return hindered_; }
-  // Largest move of a node since the last refresh, m, and the distance within which that looked for pairs, m.
-  double moved(const Points3& nodes) const { return std::sqrt((nodes - seen_at_).rowwise().squaredNorm().maxCoeff()); }
+  // Largest move of a node from the last refresh to the nodes last limited, m, and the distance within which that
+  // looked for pairs, m.
+  double moved() const { return std::sqrt(moved_squared_); }
   double reach() const { return reach_; }
 
   int piercings() const { return static_cast<int>(piercings_.size()); }
@@ -93,12 +94,14 @@ class ClothContact {
 
   double reach_;
   Points3 seen_at_;  // #N x 3, of the last refresh
+  double moved_squared_ = 0.0;
   bool fresh_ = false, stale_ = false, hindered_ = false;
   Points3 searched_at_;  // #N x 3, where candidates_ were found
   bool searched_ = false;
-  std::vector<TriangleBox> boxes_;                      // per triangle
-  Points3 centre_, normal_;                             // per triangle
+  std::vector<TriangleBox> boxes_;                      // per triangle, of those involved
+  Points3 centre_, normal_;                             // the same
   std::vector<std::pair<int, int>> candidates_, near_;  // pairs of triangles
+  std::vector<int> involved_;                           // triangles of candidates_, ascending
   std::vector<PiercedTriangle> piercings_;
   std::vector<char> marked_;  // nodes near a piercing
   LayerPairs pairs_;

@@ -26,6 +26,7 @@ double DrapeEnergy::evaluate(const Points3& nodes, Points3& gradient) {
         touching_.setZero();
         touching = gravity(nodes, touching_) + ties(nodes, touching_);
         if (contact_) touching += contact_->energy_gradient(nodes, touching_);
+        if (edge_contact) touching += edge_contact->energy_gradient(nodes, touching_);
         if (cloth_contact) touching += cloth_contact->pairs().energy_gradient(nodes, touching_);
       });
   gradient += touching_;
@@ -42,6 +43,7 @@ void DrapeEnergy::evaluate_hessian(const Points3& nodes, Curvature curvature, Bl
       hessian.add(hold.node, hold.node, Vec3(0, hold.stiffness, 0).asDiagonal().toDenseMatrix());
   for (const Pin& pin : pins) hessian.add(pin.node, pin.node, pin.stiffness * Mat3::Identity());
   if (contact_) contact_->add_hessian(nodes, curvature, hessian);
+  if (edge_contact) edge_contact->add_hessian(nodes, curvature, hessian);
   if (cloth_contact) cloth_contact->pairs().add_hessian(nodes, hessian);
 }
 

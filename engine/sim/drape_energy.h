@@ -6,6 +6,7 @@
 #include "engine/core/helper.h"
 #include "engine/sim/cloth_contact.h"
 #include "engine/sim/contact.h"
+#include "engine/sim/edge_contact.h"
 #include "engine/sim/node_mirror.h"
 
 namespace toile {
@@ -33,6 +34,7 @@ class DrapeEnergy {
   std::vector<Pin> pins;
   ClothContact* cloth_contact = nullptr;  // must outlive the energy; null: cloth passes through cloth
   Helper* helper = nullptr;               // must outlive the energy; null: one thread. The same bytes either way
+  EdgeContact* edge_contact = nullptr;    // must outlive the energy; null: edges may lie in the body
   const NodeMirror* mirror = nullptr;     // must outlive the energy; not null: sought among symmetric positions alone
 
   // Energy at `nodes` (#N x 3); `gradient` is overwritten, N.

@@ -42,7 +42,9 @@ class Relaxation {
   void factor(const Points3& nodes) {
     const Cloth& cloth = energy_.cloth();
     SparseMatrix matrix = base_;
+    contact_diagonal_.setZero();
     if (energy_.contact()) energy_.contact()->stiffness_diagonal(contact_diagonal_);
+    if (energy_.edge_contact) energy_.edge_contact->add_stiffness(contact_diagonal_);
     const double weight = cloth.fabric.density * kGravity / kWeightLength;
     for (int i = 0; i < cloth.node_count; ++i)
       matrix.coeffRef(i, i) += weight * cloth.node_area[i] + kContactShare * contact_diagonal_[i];
@@ -70,6 +72,7 @@ class Relaxation {
     energy_.helper = &helper_;
     const QuasiNewton::Energy evaluate = [this](const Points3& x, Points3& g) { return energy_.evaluate(x, g); };
     if (energy_.contact()) freeze_at_start(start);
+    if (energy_.edge_contact) energy_.edge_contact->look(start);
     if (energy_.cloth_contact) energy_.cloth_contact->refresh(start);
     if (energy_.cloth_contact || energy_.mirror)
       minimiser.set_limit([this](const Points3& from, Points3& to) {
@@ -83,6 +86,7 @@ class Relaxation {
       helper_.call();
       const bool whole = run_round(minimiser, evaluate, progress);
       if (energy_.contact()) energy_.contact()->freeze_friction(minimiser.nodes());
+      if (energy_.edge_contact) energy_.edge_contact->look(minimiser.nodes());
       if (energy_.cloth_contact) energy_.cloth_contact->refresh(minimiser.nodes());
       minimiser.refresh(evaluate);
       helper_.dismiss();
@@ -124,17 +128,16 @@ class Relaxation {
 
   void look_around(QuasiNewton& minimiser, const QuasiNewton::Energy& evaluate) {
     ClothContact* self = energy_.cloth_contact;
-    if (!self || !outdated(*self, minimiser.nodes())) return;
+    if (!self || !outdated(*self)) return;
     looked_at_ = result_.iterations;
-    self->refresh(minimiser.nodes());
-    minimiser.refresh(evaluate);
+    if (self->refresh(minimiser.nodes())) minimiser.refresh(evaluate);
   }
 
   // Planes that stop a node slow down all of the cloth: they are put where the layers are now before long.
-  bool outdated(const ClothContact& self, const Points3& nodes) const {
+  bool outdated(const ClothContact& self) const {
     const int since = result_.iterations - looked_at_;
     if (self.stale() || (self.hindered() && since >= options_.look_soon)) return true;
-    return since >= options_.look_around && (self.piercings() > 0 || self.moved(nodes) > kUsedReach * self.reach());
+    return since >= options_.look_around && (self.piercings() > 0 || self.moved() > kUsedReach * self.reach());
   }
 
   void judge(const QuasiNewton& minimiser, bool whole_round) {

@@ -29,9 +29,8 @@ double distance_xy(const Vec3& p, const std::vector<Vec3>& line) {
 
 class Classifier {
  public:
-  Classifier(const Pattern& pattern, const PatternMesh& mesh, const Points3& placed, const BodyGuides& guides,
-             const BodyLevels& levels)
-      : pattern_(pattern), mesh_(mesh), placed_(placed), guides_(guides), levels_(levels) {}
+  Classifier(const Pattern& pattern, const PatternMesh& mesh, const Points3& placed, const BodyGuides& guides)
+      : pattern_(pattern), mesh_(mesh), placed_(placed), guides_(guides), levels_(guides.levels) {}
 
   GarmentClass run() {
     const std::size_t count = pattern_.panels.size();
@@ -128,8 +127,8 @@ class Classifier {
 }  // namespace
 
 GarmentClass classify_panels(const Pattern& pattern, const PatternMesh& mesh, const Points3& placed,
-                             const BodyGuides& guides, const BodyLevels& levels) {
-  return Classifier(pattern, mesh, placed, guides, levels).run();
+                             const BodyGuides& guides) {
+  return Classifier(pattern, mesh, placed, guides).run();
 }
 
 }  // namespace toile

@@ -23,8 +23,8 @@ struct GarmentClass {
   bool bodice = false;             // some panel is torso: the shoulders carry the garment
 };
 
-// `placed`: #V x 3, pattern vertices where the panels are placed; `levels`: of the body the placement belongs to.
+// `placed`: #V x 3, pattern vertices where the panels are placed; `guides`: of the body the placement belongs to.
 GarmentClass classify_panels(const Pattern& pattern, const PatternMesh& mesh, const Points3& placed,
-                             const BodyGuides& guides, const BodyLevels& levels);
+                             const BodyGuides& guides);
 
 }  // namespace toile

@@ -59,9 +59,10 @@ constexpr int kLeastFromWorn = 150;  // iterations before a garment that was wor
 
 constexpr double kTangledShare = 0.1;  // of piercings in the triangles: worn and transported garments have under 0.01
 
-// Contact of a garment that is far too small is made stiffer until no node is that deep in the body, m. Firmer contact
-// takes several times the iterations: single nodes a millimetre deep, as of leggings two sizes too small, are let be.
-constexpr double kDeep = 0.002, kFirmer = 4;
+// Contact of a garment that is far too small is made stiffer until no node, and no middle of an edge, is that deep in
+// the body, m. Firmer contact takes several times the iterations: single nodes a millimetre deep, as of leggings two
+// sizes too small, are let be.
+constexpr double kDeep = 0.002, kDeepEdge = 0.003, kFirmer = 4;
 constexpr int kMostFirmings = 2;
 
 constexpr double kPinShare = 50;  // stiffness of a pin over that of contact: 1 N/m of tension moves it by 0.2 mm
@@ -118,7 +119,7 @@ class Draper {
     Points3 vertices(mesh_.vertex_count(), 3);
     for (int v = 0; v < mesh_.vertex_count(); ++v)
       vertices.row(v) = start.row(mesh_.node_of_vertex[static_cast<std::size_t>(v)]);
-    levels_are_own_ = true;
+    worn_ = true;
     prepare(vertices);
     if (!options_.keep_drape) make_symmetric(start);
     if (!result_.diagnostics.bodice) hold_waist(start);
@@ -138,8 +139,9 @@ class Draper {
   void prepare(const Points3& vertices) {
     if (body_.skeleton) {
       guides_ = prepared_.guides();
-      levels_ = levels_are_own_ ? guides_.levels : options_.drafted_for.value_or(guides_.levels);
-      garment_ = classify_panels(pattern_, mesh_, vertices, guides_, levels_);
+      const BodyGuides& placed_round = worn_ ? guides_ : options_.drafted_for ? *options_.drafted_for : guides_;
+      levels_ = placed_round.levels;
+      garment_ = classify_panels(pattern_, mesh_, vertices, placed_round);
       result_.diagnostics.bodice = garment_.bodice;
     }
     field_ = &prepared_.field(body_.skeleton && !garment_.bodice);
@@ -275,7 +277,9 @@ class Draper {
     contact_options.stiffness = stiffness;
     contact_options.friction = options_.friction;
     Contact contact(cloth_, *field_, contact_options);
+    EdgeContact edges(cloth_, *field_, contact_options);
     DrapeEnergy energy(cloth_, &contact, options_.gravity);
+    energy.edge_contact = &edges;
     energy.holds = holds_;
     energy.pins = pins_;
     energy.mirror = mirror_ ? &*mirror_ : nullptr;
@@ -293,7 +297,7 @@ class Draper {
     relax_options.stop_residual = options_.stop_residual;
     relax_options.stop_settled = options_.stop_settled;
     relax_options.quasi_newton.memory = kPairs;
-    if (levels_are_own_) relax_options.least_iterations = kLeastFromWorn;
+    if (worn_) relax_options.least_iterations = kLeastFromWorn;
     relax_options.watched = free_lines(pattern_, mesh_);
     const RelaxResult relaxed = relax(energy, start, relax_options, progress_);
     result_.drape.nodes = relaxed.nodes;
@@ -309,7 +313,7 @@ class Draper {
                            : relaxed.converged || relaxed.settled ? Rest::Settled
                                                                   : Rest::NotAtRest;
     if (options_.solver == SolverKind::Newton) return refine(energy, relaxed.nodes), false;
-    return presses_deep(contact.distances());
+    return presses_deep(contact.distances()) || (pins_.empty() && edges.deepest(relaxed.nodes) > kDeepEdge);
   }
 
   // Pinned nodes lie where they are wanted.
@@ -369,7 +373,7 @@ class Draper {
   std::vector<Hold> holds_;
   std::vector<Pin> pins_;
   std::optional<NodeMirror> mirror_;  // where body and garment are the same on both sides
-  bool levels_are_own_ = false;       // the garment is judged where it hangs on this body, not where it was placed
+  bool worn_ = false;                 // the garment is judged where it hangs on this body, not where it was placed
   DrapeResult result_;
 };
 

@@ -27,7 +27,7 @@ struct DrapeOptions {
   // stretch.
   double stop_settled = 1.5;
   double lift = 0.015;  // m the torso is arranged above the height at which it clears the shoulders, 0..0.1
-  std::optional<BodyLevels> drafted_for;  // levels of the body the pattern's placement belongs to; empty: this body
+  std::optional<BodyGuides> drafted_for;  // of the body the pattern's placement belongs to; empty: this body
   // From a given start: holds every opening (cuffs, hems, waist, neckline) where the start has it, so that a garment
   // stretches instead of sliding. The pattern's own pins hold either way.                       [Eggler2024, Sec. 4.1]
   bool pin_openings = false;

@@ -17,8 +17,8 @@ Body body_with_skeleton(const std::string& name) {
   return body;
 }
 
-BodyLevels levels_of(const Body& body) {
-  return find_body_guides(body, SurfaceTree(body.surface.vertices, body.surface.triangles)).levels;
+BodyGuides guides_of(const Body& body) {
+  return find_body_guides(body, SurfaceTree(body.surface.vertices, body.surface.triangles));
 }
 
 const std::map<std::string, Place>& places() {
@@ -70,7 +70,7 @@ Dressing dress(const std::string& garment, int triangles, const std::string& bod
   dressing.pattern = import_pattern(read_file(shared_data("garments/" + garment + "_specification.json")));
   dressing.mesh = mesh_panels(dressing.pattern, {.triangles = triangles, .edge_length = {}});
   dressing.body = body_with_skeleton(worn_by);
-  if (worn_by != own) dressing.options.drafted_for = levels_of(body_with_skeleton(own));
+  if (worn_by != own) dressing.options.drafted_for = guides_of(body_with_skeleton(own));
   return dressing;
 }
 

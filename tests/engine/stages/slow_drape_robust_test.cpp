@@ -28,6 +28,7 @@ void expect_settled(const DrapeResult& result) {
   EXPECT_NE(result.quality.rest, Rest::NotAtRest) << result.quality.residual << ", " << result.quality.settling_move;
   EXPECT_TRUE(result.drape.nodes.allFinite());
   EXPECT_EQ(result.quality.nodes_inside, 0) << result.quality.deepest_node;
+  EXPECT_EQ(result.quality.edges_inside, 0) << result.quality.deepest_edge;
 }
 
 // At rest or refused for a reason; never nonsense.

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/sim/edge_contact.h"
+
+#include <algorithm>
+
+namespace toile {
+namespace {
+
+constexpr double kSeen = 0.001;  // m the middle of an edge may lie inside unnoticed: the field is as good as that
+
+std::vector<std::pair<int, int>> edges_of(const Cloth& cloth) {
+  std::vector<std::pair<int, int>> edges;
+  for (const TriangleBlock& block : cloth.blocks)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      if (block.area[static_cast<Eigen::Index>(lane)] == 0) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        edges.push_back(std::minmax<int>(block.node[k][lane], block.node[(k + 1) % 3][lane]));
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+}  // namespace
+
+EdgeContact::EdgeContact(const Cloth& cloth, SignedField& field, const ContactOptions& options)
+    : cloth_(cloth), field_(field), options_(options) {
+  for (const auto& [a, b] : edges_of(cloth)) edges_.push_back({a, b});
+}
+
+double EdgeContact::depth(Edge& edge, const Points3& nodes, Vec3& normal) {
+  return -field_.evaluate_again(0.5 * (nodes.row(edge.a) + nodes.row(edge.b)).transpose(), 0.0, normal, edge.hint);
+}
+
+bool EdgeContact::look(const Points3& nodes) {
+  const int before = count();
+  Vec3 normal;
+  for (std::size_t k = 0; k < edges_.size(); ++k) {
+    if (edges_[k].kept || depth(edges_[k], nodes, normal) < kSeen) continue;
+    edges_[k].kept = true;
+    kept_.push_back(static_cast<int>(k));
+  }
+  return count() > before;
+}
+
+double EdgeContact::deepest(const Points3& nodes) {
+  double most = 0;
+  Vec3 normal;
+  for (int k : kept_) most = std::max(most, depth(edge(k), nodes, normal));
+  return most;
+}
+
+double EdgeContact::energy_gradient(const Points3& nodes, Points3& gradient) {
+  double energy = 0;
+  Vec3 normal;
+  for (int k : kept_) {
+    Edge& e = edge(k);
+    const double inside = depth(e, nodes, normal);
+    if (inside <= 0) continue;
+    double slope = 0;
+    energy += stiffness(e) * contact_profile(inside, options_.linear_beyond, slope);
+    const Vec3 force = 0.5 * stiffness(e) * slope * normal;
+    gradient.row(e.a) -= force.transpose();
+    gradient.row(e.b) -= force.transpose();
+  }
+  return energy;
+}
+
+void EdgeContact::add_hessian(const Points3& nodes, Curvature curvature, BlockHessian& hessian) {
+  Vec3 normal;
+  for (int k : kept_) {
+    Edge& e = edge(k);
+    const double inside = depth(e, nodes, normal);
+    if (inside <= 0) continue;
+    const Vec3 middle = 0.5 * (nodes.row(e.a) + nodes.row(e.b)).transpose();
+    const Mat3 quarter =
+        0.25 * contact_hessian(stiffness(e), inside, options_.linear_beyond, normal, field_.hessian(middle), curvature);
+    hessian.add(e.a, e.a, quarter);
+    hessian.add(e.b, e.b, quarter);
+    hessian.add(e.b, e.a, quarter);
+  }
+}
+
+void EdgeContact::add_stiffness(Eigen::VectorXd& diagonal) const {
+  for (int k : kept_) {
+    const Edge& e = edges_[static_cast<std::size_t>(k)];
+    diagonal[e.a] += 0.5 * stiffness(e);
+    diagonal[e.b] += 0.5 * stiffness(e);
+  }
+}
+
+}  // namespace toile
