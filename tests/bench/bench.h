@@ -55,6 +55,7 @@ int bench_mannequins(const Arguments& arguments);
 int bench_panels(const Arguments& arguments);
 int bench_pictures(const Arguments& arguments);
 int bench_fabrics(const Arguments& arguments);
+int bench_ladder(const Arguments& arguments);
 int bench_oracle(const Arguments& arguments);
 int bench_register(const Arguments& arguments);
 int bench_queue(const Arguments& arguments);
