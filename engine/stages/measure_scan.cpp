@@ -67,15 +67,16 @@ void move_up(MeasureBodyResult& measured, double by) {
     *level += by;
 }
 
-// Whether less than half of the way along the mid-plane under the crotch is skin of the scan.
-bool crotch_is_bridged(const Vec3& crotch, double height, const TriangleMesh& scan) {
+// Whether the scan has no skin at the crest, or at less than half of the way along the mid-plane under the crotch.
+bool crotch_is_bridged(const Vec3& crotch, const Vec3& crest, double height, const TriangleMesh& scan) {
   const SurfaceTree tree(scan.vertices, scan.triangles);
+  const auto is_seen = [&](const Vec3& p) {
+    return tree.closest_point_facing(p, -Vec3::UnitY(), kFacingDown, kCrotchReach * height).found();
+  };
+  if (!is_seen(crest)) return true;
   int seen = 0;
-  for (int i = 0; i < kCrotchSamples; ++i) {
-    const double along = kCrotchFront * i / (kCrotchSamples - 1);
-    const Vec3 under = crotch + Vec3(0.0, 0.0, along * height);
-    seen += tree.closest_point_facing(under, -Vec3::UnitY(), kFacingDown, kCrotchReach * height).found() ? 1 : 0;
-  }
+  for (int i = 0; i < kCrotchSamples; ++i)
+    seen += is_seen(crotch + Vec3(0.0, 0.0, kCrotchFront * height * i / (kCrotchSamples - 1))) ? 1 : 0;
   return 2 * seen < kCrotchSamples;
 }
 
@@ -125,8 +126,8 @@ void mend_bridged_crotch(Landmarks& known, const Fitted& fitted, const Skeleton&
   if (known.contains("crotch")) return;
   const TriangleMesh seen = without_leg_web(scan.surface);
   Vec3 found(0.0, find_crotch_level(fitted.skin, skeleton), skeleton.pelvis.z());
-  if (!crotch_is_bridged(found, skeleton.height, seen)) return;
   const Vec3 crest = lowest_crest(fitted.skin, fitted.mannequin, found.y(), skeleton.height);
+  if (!crotch_is_bridged(found, crest, skeleton.height, seen)) return;
   found.y() = bridged_crotch(crest, skeleton.height, seen);
   known["crotch"] = found;
 }
