@@ -31,8 +31,9 @@ class OutputFiles {
   // `wanted`: names of files, or "all".
   explicit OutputFiles(const std::vector<std::string>& wanted) : wanted_(wanted) {}
 
-  // Whether a file is made by make().
+  // Whether a file is made by make(), and whether also by make_if_named().
   bool wanted(const std::string& name) const { return named("all") || named(name); }
+  bool named(const std::string& name) const;
   void make(const std::string& name, const char* type, const std::function<Bytes()>& work);
   // Diagnostics: "all" does not mean them.
   void make_if_named(const std::string& name, const char* type, const std::function<Bytes()>& work);
@@ -40,8 +41,6 @@ class OutputFiles {
   std::vector<OutputFile> finish(Record result);
 
  private:
-  bool named(const std::string& name) const;
-
   std::vector<std::string> wanted_;
   std::vector<OutputFile> files_;
 };

@@ -250,7 +250,11 @@ void AlterationFiles::draw_at_once() {
         draw("fit_reference.png", fit_reference_);
         return draw("fit_before.png", fit_before_);
       },
-      [&] { return fits_.after ? draw("fit_after.png", fit_after_) : draw("fit_target.png", fit_target_); });
+      [&] {
+        if (!fits_.after) return draw("fit_target.png", fit_target_);
+        if (files_.named("fit_target.png")) fit_target_.value();
+        return draw("fit_after.png", fit_after_);
+      });
 }
 
 Bytes AlterationFiles::report() {

@@ -11,6 +11,8 @@
 namespace toile {
 namespace {
 
+constexpr int kCall = 50;  // iterations after which a helper that is not there is called again
+
 class SewingSolver {
  public:
   SewingSolver(DrapeEnergy& energy, SignedField& field, double thickness, const Points3& start,
@@ -28,6 +30,7 @@ class SewingSolver {
         hint_(static_cast<std::size_t>(start.rows()), 0) {
     u_.setZero();
     push_all_out();
+    energy_.evaluate(x_, gradient_);
   }
 
   void factor(double sigma) {
@@ -42,22 +45,17 @@ class SewingSolver {
                   "the cloth's stiffness matrix cannot be factored; check the fabric");
   }
 
-  // Largest move of a node.
+  // Largest move of a node. Pushing out and the energy where the nodes have come need nothing of each other.
   double step(double relaxation) {
-    energy_.evaluate(x_, gradient_);
     right_ = -gradient_ + ((z_ - u_ - x_).array().colwise() * weight_.array()).matrix();
-    solver_.solve(right_, solution_);
+    solver_.solve(right_, solution_, &helper_);
     x_ += solution_;
     if (energy_.mirror) symmetrise(*energy_.mirror, x_);
-    for (Eigen::Index i = 0; i < x_.rows(); ++i) {
-      const Vec3 q = relaxation * x_.row(i) + (1 - relaxation) * z_.row(i);
-      const Vec3 pushed = push_out(q + u_.row(i).transpose(), hint_[static_cast<std::size_t>(i)]);
-      u_.row(i) += (q - pushed).transpose();
-      z_.row(i) = pushed.transpose();
-    }
+    helper_.both([&] { draw_copies(relaxation); }, [&] { energy_.evaluate(x_, gradient_); });
     return std::sqrt(solution_.rowwise().squaredNorm().maxCoeff());
   }
 
+  void call_helper() { helper_.call(); }
   const Points3& nodes() const { return x_; }
   void set_thickness(double thickness) { thickness_ = thickness; }
 
@@ -71,6 +69,15 @@ class SewingSolver {
     }
     return p;
   }
+  // Draws the copies towards the nodes, and out of the body.
+  void draw_copies(double relaxation) {
+    for (Eigen::Index i = 0; i < x_.rows(); ++i) {
+      const Vec3 q = relaxation * x_.row(i) + (1 - relaxation) * z_.row(i);
+      const Vec3 pushed = push_out(q + u_.row(i).transpose(), hint_[static_cast<std::size_t>(i)]);
+      u_.row(i) += (q - pushed).transpose();
+      z_.row(i) = pushed.transpose();
+    }
+  }
   void push_all_out() {
     for (Eigen::Index i = 0; i < z_.rows(); ++i)
       z_.row(i) = push_out(z_.row(i), hint_[static_cast<std::size_t>(i)]).transpose();
@@ -81,6 +88,7 @@ class SewingSolver {
   double thickness_;
   const SewingOptions& options_;
   RowSolver solver_;
+  Helper helper_;
   Points3 x_, z_, u_, gradient_, right_, solution_;
   std::vector<std::int32_t> hint_;  // #N, of the field
   Eigen::VectorXd weight_;
@@ -99,6 +107,7 @@ SewingResult sew(DrapeEnergy& energy, SignedField& field, double thickness, cons
       check_cancelled(progress);
       const double grown = std::min(1.0, static_cast<double>(result.iterations) / options.growth_iterations);
       solver.set_thickness(thickness - options.growth * (1 - grown));
+      if (result.iterations % kCall == 0) solver.call_helper();
       result.last_move = solver.step(stage.relaxation);
       ++result.iterations;
       if (s + 1 == options.stages.size() && result.last_move < options.stop_move) break;
