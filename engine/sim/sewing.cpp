@@ -57,7 +57,6 @@ class SewingSolver {
 
   void call_helper() { helper_.call(); }
   const Points3& nodes() const { return x_; }
-  void set_thickness(double thickness) { thickness_ = thickness; }
 
  private:
   Vec3 push_out(Vec3 p, std::int32_t& hint) {
@@ -85,7 +84,7 @@ class SewingSolver {
 
   DrapeEnergy& energy_;
   SignedField& field_;
-  double thickness_;
+  const double thickness_;
   const SewingOptions& options_;
   RowSolver solver_;
   Helper helper_;
@@ -98,15 +97,13 @@ class SewingSolver {
 
 SewingResult sew(DrapeEnergy& energy, SignedField& field, double thickness, const Points3& start,
                  const SewingOptions& options, Progress* progress) {
-  SewingSolver solver(energy, field, thickness - options.growth, start, options);
+  SewingSolver solver(energy, field, thickness, start, options);
   SewingResult result;
   for (std::size_t s = 0; s < options.stages.size(); ++s) {
     const SewingStage& stage = options.stages[s];
     solver.factor(stage.sigma);
     for (int i = 0; i < stage.iterations; ++i) {
       check_cancelled(progress);
-      const double grown = std::min(1.0, static_cast<double>(result.iterations) / options.growth_iterations);
-      solver.set_thickness(thickness - options.growth * (1 - grown));
       if (result.iterations % kCall == 0) solver.call_helper();
       result.last_move = solver.step(stage.relaxation);
       ++result.iterations;

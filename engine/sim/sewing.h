@@ -20,10 +20,8 @@ struct SewingStage {
 struct SewingOptions {
   std::vector<SewingStage> stages = {{3000, 1.0, 60}, {1000, 1.0, 30}, {300, 1.6, 150}};
   double stop_move = 0.0005;  // largest move of a node in one iteration that counts as closed, m; last stage only
-  double growth = 0.0;        // m the body is shrunk by at first; it grows back over `growth_iterations`
-  int growth_iterations = 80;
-  int push_steps = 4;      // Newton steps of push_out
-  double push_cap = 0.03;  // of one of them, m
+  int push_steps = 4;         // Newton steps of push_out
+  double push_cap = 0.03;     // of one of them, m
 };
 
 struct SewingResult {

@@ -39,7 +39,7 @@ struct DrapeOptions {
   double fibre_slack = 0.0;                      // delta of the position-based solver, 0..0.2
   double shear_limit_deg = 12.0;                 // rho of the position-based solver, 0..45
   SelfContact self_contact = SelfContact::Auto;  // Off: cloth passes through cloth
-  int first_rung = 0;  // of the retry ladder to begin with, 0..2: as designed, higher and firmer, grown from inside
+  int first_rung = 0;  // of the retry ladder to begin with, 0 or 1: as designed, higher and firmer
 };
 
 struct DrapeDiagnostics {

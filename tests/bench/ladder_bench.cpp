@@ -17,7 +17,7 @@
 namespace toile::bench {
 namespace {
 
-constexpr int kRungs = 3;
+constexpr int kRungs = 2;
 
 struct Request {
   std::vector<std::string> garments;
