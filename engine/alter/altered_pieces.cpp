@@ -2,9 +2,10 @@
 #include "engine/alter/altered_pieces.h"
 
 #include <algorithm>
+#include <map>
 
-#include "engine/alter/fit_new_cloth.h"
 #include "engine/alter/kept_cloth.h"
+#include "engine/alter/true_seams.h"
 #include "engine/geometry/inner_point.h"
 
 namespace toile {
@@ -17,6 +18,10 @@ constexpr double kLeastEdge = 3e-4;        // m: shorter chains are left out
 void move_rest(const PolygonPlace& place, PieceMap& map) {
   for (Eigen::Index v = 0; v < map.rest.rows(); ++v) map.rest.row(v) = place(map.rest.row(v).transpose()).transpose();
 }
+
+// Plies of one panel that differ by more than both cannot be eased onto each other: the wanted panel has its darts
+// elsewhere than the cloth, and strips across their mouths would gather it.
+constexpr double kMostEased = 0.33, kMostEasedLength = 8e-3;  // of the longer ply, and m
 
 class Cutting {
  public:
@@ -36,9 +41,12 @@ class Cutting {
     cut_.corners = share_corners(pattern_, mesh_, cut_.borders);
     cut_.chains = border_chains(cut_.borders);
     cut_.seams = ChainSeams(cut_.borders, cut_.chains, cut_.corners).find(pattern_, mesh_, target_rest_, cut_.flags);
-    fit_new_cloth(cut_.chains, cut_.seams, mesh_.target_edge_length, cut_.borders, cut_.pieces);
-    draw_pieces();
-    if (!all_sound()) cut_.pieces.clear();
+    if (all_meet()) {
+      true_seams(cut_.chains, cut_.seams, fixed_pieces(), mesh_.target_edge_length, cut_.borders, cut_.pieces);
+      draw_pieces();
+      if (all_sound()) return std::move(cut_);
+    }
+    cut_.pieces.clear();
     return std::move(cut_);
   }
 
@@ -46,6 +54,8 @@ class Cutting {
   std::vector<bool> let_out(const PanelAlteration& panel) const;
   bool add_panel(int p);
   std::string try_panel(int p, const AlteredParts& parts, bool recut);
+  bool all_meet();
+  std::vector<bool> fixed_pieces() const;
   void draw_pieces();
   bool all_sound();
 
@@ -122,6 +132,41 @@ std::string Cutting::try_panel(int p, const AlteredParts& parts, bool recut) {
   std::move(pieces.begin(), pieces.end(), std::back_inserter(cut_.pieces));
   std::move(borders.begin(), borders.end(), std::back_inserter(cut_.borders));
   return {};
+}
+
+// Pieces of a panel whose edges are far from alike where they are sewn to each other: the panel is cut anew.
+bool Cutting::all_meet() {
+  std::map<std::pair<int, int>, std::pair<double, double>> plies;
+  const auto piece_of = [&](int chain) { return cut_.chains[static_cast<std::size_t>(chain)].piece; };
+  const auto length = [&](int chain) {
+    return chain_length(cut_.borders[static_cast<std::size_t>(piece_of(chain))],
+                        cut_.chains[static_cast<std::size_t>(chain)]);
+  };
+  const auto panel_of = [&](int piece) { return cut_.pieces[static_cast<std::size_t>(piece)].panel; };
+  for (const ChainSeam& seam : cut_.seams) {
+    const int a = piece_of(seam.a), b = piece_of(seam.b);
+    if (panel_of(a) != panel_of(b)) continue;
+    auto& [first, second] = plies[std::minmax(a, b)];
+    first += length(a <= b ? seam.a : seam.b);
+    second += length(a <= b ? seam.b : seam.a);
+  }
+  bool meet = true;
+  for (const auto& [pieces, lengths] : plies) {
+    const int p = panel_of(pieces.first);
+    const auto [shorter, longer] = std::minmax(lengths.first, lengths.second);
+    if (longer - shorter <= std::max(kMostEased * longer, kMostEasedLength)) continue;
+    if (pattern_.panels[static_cast<std::size_t>(p)].locked) continue;
+    if (recut_.emplace(p, CutAnew{"the edges of its pieces do not meet", std::nullopt}).second) meet = false;
+  }
+  return meet;
+}
+
+// Cloth that is cut as it is: of locked panels, and what just fits into its own old cloth.
+std::vector<bool> Cutting::fixed_pieces() const {
+  std::vector<bool> fixed;
+  for (const SewnPiece& piece : cut_.pieces)
+    fixed.push_back(piece.own_cloth || pattern_.panels[static_cast<std::size_t>(piece.panel)].locked);
+  return fixed;
 }
 
 void Cutting::draw_pieces() {

@@ -12,11 +12,14 @@
 namespace toile {
 namespace {
 
-constexpr double kOnCurve = 6e-4;     // m: a chain this near to an original edge is a part of it
-constexpr double kSameCorner = 1e-3;  // m: so is a corner
+// Chains that near to an original edge are a part of it, corners that near to one of its corners are that corner.
+struct Nearness {
+  double edge, corner, length;  // m
+};
+constexpr Nearness kAsCut = {6e-4, 1e-3, 1.0}, kTrued = {2e-4, 2e-4, 1e-4};
 constexpr double kStraight = 2e-4;    // m
 constexpr double kSmooth = 8e-4;      // m: of a Bézier through the chain's points
-constexpr double kSameLength = 3e-4;  // m: of such a Bézier and the chain
+constexpr double kSameLength = 1e-4;  // m: of such a Bézier and the chain
 constexpr double kPolyline = 5e-5;    // m: of the polyline where no Bézier follows
 constexpr double kFlat = 2e-5;        // m: of the chords an outline is tested by
 constexpr double kLeastChord = 2e-5;  // m between the ends of an edge: less is no edge
@@ -42,24 +45,26 @@ double distance_to_chord(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (a + t * way - p).norm();
 }
 
-OriginalPart part_of_edge(const Panel& original, int edge, const std::vector<Vec2>& points) {
+OriginalPart part_of_edge(const Panel& original, int edge, const std::vector<Vec2>& points, const Nearness& near) {
   const Curve curve = edge_curve(original, edge);
   if ((curve.end - curve.start).norm() < 1e-9) return {};
   for (const Vec2& p : points)
     if (distance_to_chord(p, curve.start, curve.end) > curve_length(curve)) return {};
   const CurvePlace first = nearest_on_curve(curve, points.front()), last = nearest_on_curve(curve, points.back());
-  if (first.distance > kOnCurve || last.distance > kOnCurve || std::abs(first.t - last.t) < 1e-6) return {};
+  if (first.distance > near.edge || last.distance > near.edge || std::abs(first.t - last.t) < 1e-6) return {};
   for (const Vec2& p : points)
-    if (nearest_on_curve(curve, p).distance > kOnCurve) return {};
+    if (nearest_on_curve(curve, p).distance > near.edge) return {};
+  const double length = curve_length(part_of_curve(curve, std::min(first.t, last.t), std::max(first.t, last.t)));
+  if (std::abs(length - length_of(points)) > near.length) return {};
   return {edge, first.t, last.t};
 }
 
-OriginalPart original_part(const Panel& original, int likely, const std::vector<Vec2>& points) {
+OriginalPart original_part(const Panel& original, int likely, const std::vector<Vec2>& points, const Nearness& near) {
   if (likely >= 0)
-    if (const OriginalPart part = part_of_edge(original, likely, points); part.edge >= 0) return part;
+    if (const OriginalPart part = part_of_edge(original, likely, points, near); part.edge >= 0) return part;
   for (int e = 0; e < original.edge_count(); ++e)
     if (e != likely)
-      if (const OriginalPart part = part_of_edge(original, e, points); part.edge >= 0) return part;
+      if (const OriginalPart part = part_of_edge(original, e, points, near); part.edge >= 0) return part;
   return {};
 }
 
@@ -133,13 +138,13 @@ bool can_be_cut(const PieceEdges& edges) {
 class EdgeDrawer {
  public:
   EdgeDrawer(const PieceBorder& piece, const std::vector<const BorderChain*>& chains, const Panel* original)
-      : original_(original) {
+      : original_(original), near_(piece.trued ? kTrued : kAsCut) {
     for (const BorderChain* chain : chains) {
       points_.emplace_back();
       for (const int v : chain->vertices) points_.back().push_back(piece.vertices[static_cast<std::size_t>(v)].rest);
-      parts_.push_back(
-          original ? original_part(*original, chain->along.neighbour < 0 ? chain->along.track.edge : -1, points_.back())
-                   : OriginalPart{});
+      const int likely = chain->along.neighbour < 0 ? chain->along.track.edge : -1;
+      parts_.push_back(original ? original_part(*original, likely, points_.back(), near_) : OriginalPart{});
+      of_edge_.push_back(original ? original_part(*original, likely, points_.back(), kAsCut).edge : -1);
     }
   }
 
@@ -169,10 +174,8 @@ class EdgeDrawer {
  private:
   PieceEdges start() const {
     PieceEdges edges;
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-      edges.lengths.push_back(length_of(points_[k]));
-      edges.of_edge.push_back(parts_[k].edge);
-    }
+    edges.of_edge = of_edge_;
+    for (const auto& points : points_) edges.lengths.push_back(length_of(points));
     return edges;
   }
 
@@ -183,7 +186,7 @@ class EdgeDrawer {
     const OriginalPart &ending = parts_[before], &beginning = parts_[after];
     if (ending.edge >= 0 || beginning.edge >= 0)
       for (const Vec2& known : original_->corners)
-        if ((known - here).norm() < kSameCorner) return known;
+        if ((known - here).norm() < near_.corner) return known;
     if (beginning.edge >= 0) return curve_point(edge_curve(*original_, beginning.edge), beginning.from);
     if (ending.edge >= 0) return curve_point(edge_curve(*original_, ending.edge), ending.to);
     return here;
@@ -201,8 +204,10 @@ class EdgeDrawer {
   }
 
   const Panel* original_;
+  const Nearness& near_;
   std::vector<std::vector<Vec2>> points_;
   std::vector<OriginalPart> parts_;
+  std::vector<int> of_edge_;
 };
 
 }  // namespace

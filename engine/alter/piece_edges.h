@@ -10,7 +10,7 @@ struct PieceEdges {
   std::vector<Vec2> corners;      // corner k starts chain k
   std::vector<EdgeCurve> curves;  // of chain k, counter-clockwise
   std::vector<double> lengths;    // of chain k before a curve was drawn through it
-  std::vector<int> of_edge;       // edge of the original panel whose curve it is a part of, or -1
+  std::vector<int> of_edge;       // edge of the original panel on whose curve it lies, or -1
   bool sound = true;              // the outline encloses cloth and keeps clear of itself, no edge is without length
 };
 

@@ -14,21 +14,17 @@ namespace {
 
 constexpr double kNotchedSeam = 0.06;   // m: longer new seams get a notch in their middle
 constexpr double kTurnedInArea = 1e-4;  // m^2: a piece larger by more was widened for what is turned in
-// Plies of one panel that differ by more than both cannot be eased onto each other: the wanted panel has its darts
-// elsewhere than the cloth, and strips across their mouths would gather it.
-constexpr double kMostEased = 0.33, kMostEasedLength = 8e-3;  // of the longer ply, and m
 
 class Sewing {
  public:
   Sewing(const Pattern& pattern, const PatternMesh& mesh, const AlteredPieces& cut)
       : pattern_(pattern), mesh_(mesh), cut_(cut) {}
 
-  SewnPattern run(const AlterPatternResult& result, RecutPanels& recut) {
+  SewnPattern run(const AlterPatternResult& result) {
     start_pattern();
     for (std::size_t i = 0; i < cut_.pieces.size(); ++i)
       sewn_.pattern.panels.push_back(panel_of_piece(pattern_, result, cut_, i));
     sew();
-    if (!all_meet(recut)) return std::move(sewn_);
     add_notches();
     add_pins();
     return std::move(sewn_);
@@ -36,7 +32,6 @@ class Sewing {
 
  private:
   void start_pattern();
-  bool all_meet(RecutPanels& recut);
   void sew();
   void add_notches();
   void add_pins();
@@ -60,28 +55,6 @@ void Sewing::start_pattern() {
   sewn_.pattern.seam_allowance = pattern_.seam_allowance;
   sewn_.pattern.symmetry = pattern_.symmetry;
   sewn_.pattern.symmetry_plane = pattern_.symmetry_plane;
-}
-
-// Pieces of a panel whose edges are far from alike where they are sewn to each other: the panel is cut anew.
-bool Sewing::all_meet(RecutPanels& recut) {
-  std::map<std::pair<int, int>, std::pair<double, double>> plies;
-  for (std::size_t s = 0; s < sewn_.seams.size(); ++s) {
-    const int a = sewn_.pattern.seams[s].a.panel.value, b = sewn_.pattern.seams[s].b.panel.value;
-    if (sewn_.pieces[static_cast<std::size_t>(a)].panel != sewn_.pieces[static_cast<std::size_t>(b)].panel) continue;
-    auto& [first, second] = plies[std::minmax(a, b)];
-    first += a <= b ? sewn_.seams[s].length_a : sewn_.seams[s].length_b;
-    second += a <= b ? sewn_.seams[s].length_b : sewn_.seams[s].length_a;
-  }
-  bool meet = true;
-  for (const auto& [pieces, lengths] : plies) {
-    const int p = sewn_.pieces[static_cast<std::size_t>(pieces.first)].panel;
-    const auto [shorter, longer] = std::minmax(lengths.first, lengths.second);
-    if (longer - shorter <= std::max(kMostEased * longer, kMostEasedLength)) continue;
-    if (pattern_.panels[static_cast<std::size_t>(p)].locked) continue;
-    if (recut.emplace(p, CutAnew{"the edges of its pieces do not meet", std::nullopt}).second) meet = false;
-  }
-  if (!meet) sewn_.pieces.clear();
-  return meet;
 }
 
 double Sewing::length_of(int chain) const {
@@ -160,7 +133,7 @@ SewnPattern sew_altered(const Pattern& pattern, const PatternMesh& mesh, const P
     nothing.flags = cut.flags;
     return nothing;
   }
-  return Sewing(pattern, mesh, cut).run(result, recut);
+  return Sewing(pattern, mesh, cut).run(result);
 }
 
 }  // namespace toile

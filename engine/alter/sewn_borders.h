@@ -21,6 +21,7 @@ struct PieceBorder {
   int panel = 0, part = 0;
   std::vector<BorderVertex> vertices;
   std::vector<RegionBorder> borders;
+  bool trued = false;  // its cloth was moved off the lines it came from
 };
 
 // A run of border between two corners with one thing on its other side.

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/alter/true_seams.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "engine/alter/trued_piece.h"
+
+namespace toile {
+namespace {
+
+constexpr double kLeastOff = 1.5e-4;  // m: less is left as it is
+constexpr double kMostOff = 0.15;     // of a chain's length: what differs by more is eased
+constexpr double kShortOff = 0.013;   // m: or by less than this, of short chains
+constexpr double kUnstrained = 0.02;  // of the lengths sewn: how much cloth without strain counts beside them
+
+class Truing {
+ public:
+  Truing(const std::vector<BorderChain>& chains, const std::vector<ChainSeam>& seams, const std::vector<bool>& fixed,
+         std::vector<PieceBorder>& borders, std::vector<SewnPiece>& pieces)
+      : chains_(chains), seams_(seams), fixed_(fixed), borders_(borders), pieces_(pieces) {
+    for (const BorderChain& chain : chains)
+      length_.push_back(chain_length(borders[static_cast<std::size_t>(chain.piece)], chain));
+    wanted_ = length_;
+    sewn_.assign(chains.size(), false);
+    scale_.assign(pieces.size(), Vec2::Ones());
+  }
+
+  void run(double edge_length) {
+    for (const ChainSeam& seam : seams_)
+      if (!is_new(seam.a) && !is_new(seam.b)) meet_in_the_middle(seam);
+    for (const ChainSeam& seam : seams_)
+      if (is_new(seam.a) != is_new(seam.b)) follow(seam);
+    for (std::size_t i = 0; i < pieces_.size(); ++i) take_strain(i);
+    for (const ChainSeam& seam : seams_)
+      if (is_new(seam.a) && is_new(seam.b)) meet_in_the_middle(seam);
+    for (std::size_t i = 0; i < pieces_.size(); ++i)
+      if (worth_it(i)) true_piece(i, edge_length);
+  }
+
+ private:
+  std::size_t piece_of(int chain) const {
+    return static_cast<std::size_t>(chains_[static_cast<std::size_t>(chain)].piece);
+  }
+  bool is_fixed(int chain) const { return fixed_[piece_of(chain)]; }
+  bool is_new(int chain) const {
+    const SewnPiece& piece = pieces_[piece_of(chain)];
+    return !is_fixed(chain) && (piece.insertion >= 0 || piece.recut);
+  }
+  double& wanted(int chain) { return wanted_[static_cast<std::size_t>(chain)]; }
+
+  static bool near(double a, double b) { return std::abs(a - b) < std::max(kShortOff, kMostOff * std::max(a, b)); }
+
+  void meet_in_the_middle(const ChainSeam& seam) {
+    const double a = wanted(seam.a), b = wanted(seam.b) + seam.eased;
+    if (!near(a, b)) return;
+    const double both = is_fixed(seam.a) ? a : is_fixed(seam.b) ? b : 0.5 * (a + b);
+    set(seam, both);
+  }
+
+  // New cloth takes the length of kept cloth; where it is far off, in a corner, both give way.
+  void follow(const ChainSeam& seam) {
+    const double a = wanted(seam.a), b = wanted(seam.b) + seam.eased;
+    if (!near(a, b)) return;
+    const int kept = is_new(seam.a) ? seam.b : seam.a;
+    const bool little = std::abs(a - b) < kMostOff * std::max(a, b) || is_fixed(kept);
+    set(seam, !little ? 0.5 * (a + b) : is_new(seam.a) ? b : a);
+  }
+
+  void set(const ChainSeam& seam, double both) {
+    if (!is_fixed(seam.a)) wanted(seam.a) = both;
+    if (!is_fixed(seam.b)) wanted(seam.b) = both - seam.eased;
+    sewn_[static_cast<std::size_t>(seam.a)] = sewn_[static_cast<std::size_t>(seam.b)] = true;
+  }
+
+  // Mean warp and weft stretch that a new piece needs for the lengths wanted of it; what else is wanted of its other
+  // chains begins from there.
+  void take_strain(std::size_t i) {
+    if (fixed_[i] || (pieces_[i].insertion < 0 && !pieces_[i].recut)) return;
+    Mat2 normal = Mat2::Zero();
+    Vec2 right = Vec2::Zero();
+    double length = 0.0;
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      if (static_cast<std::size_t>(chains_[c].piece) != i || !sewn_[c]) continue;
+      const double ratio = wanted_[c] / length_[c];
+      each_edge(chains_[c], [&](const Vec2& edge) {
+        const Vec2 share = edge.cwiseAbs2() / edge.squaredNorm();
+        normal += edge.norm() * share * share.transpose();
+        right += edge.norm() * ratio * ratio * share;
+        length += edge.norm();
+      });
+    }
+    if (length <= 0.0) return;
+    normal.diagonal().array() += kUnstrained * length;
+    right.array() += kUnstrained * length;
+    scale_[i] = (normal.inverse() * right).cwiseMax(0.81).cwiseMin(1.21).cwiseSqrt();
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      if (static_cast<std::size_t>(chains_[c].piece) != i || sewn_[c]) continue;
+      wanted_[c] = 0.0;
+      each_edge(chains_[c], [&](const Vec2& edge) { wanted_[c] += scale_[i].cwiseProduct(edge).norm(); });
+    }
+  }
+
+  void each_edge(const BorderChain& chain, const std::function<void(const Vec2&)>& visit) const {
+    const auto& vertices = borders_[static_cast<std::size_t>(chain.piece)].vertices;
+    for (std::size_t k = 1; k < chain.vertices.size(); ++k) {
+      const Vec2 edge = vertices[static_cast<std::size_t>(chain.vertices[k])].rest -
+                        vertices[static_cast<std::size_t>(chain.vertices[k - 1])].rest;
+      if (edge.norm() > 1e-9) visit(edge);
+    }
+  }
+
+  bool worth_it(std::size_t piece) const {
+    for (std::size_t c = 0; c < chains_.size(); ++c)
+      if (static_cast<std::size_t>(chains_[c].piece) == piece && sewn_[c] &&
+          std::abs(wanted_[c] - length_[c]) > kLeastOff)
+        return !fixed_[piece];
+    return false;
+  }
+
+  void true_piece(std::size_t i, double edge_length) {
+    TruedPiece piece(borders_[i], pieces_[i].map, scale_[i], edge_length);
+    for (std::size_t c = 0; c < chains_.size(); ++c)
+      if (static_cast<std::size_t>(chains_[c].piece) == i && sewn_[c]) piece.want(chains_[c], wanted_[c]);
+    piece.give(borders_[i], pieces_[i].map);
+  }
+
+  const std::vector<BorderChain>& chains_;
+  const std::vector<ChainSeam>& seams_;
+  const std::vector<bool>& fixed_;
+  std::vector<PieceBorder>& borders_;
+  std::vector<SewnPiece>& pieces_;
+  std::vector<double> length_, wanted_;  // per chain
+  std::vector<bool> sewn_;               // per chain: a length is wanted of it
+  std::vector<Vec2> scale_;              // per piece
+};
+
+}  // namespace
+
+void true_seams(const std::vector<BorderChain>& chains, const std::vector<ChainSeam>& seams,
+                const std::vector<bool>& fixed, double edge_length, std::vector<PieceBorder>& borders,
+                std::vector<SewnPiece>& pieces) {
+  Truing(chains, seams, fixed, borders, pieces).run(edge_length);
+}
+
+}  // namespace toile
