@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/core/error.h"
+#include "engine/core/side_by_side.h"
 
 namespace toile {
 
@@ -250,11 +251,27 @@ struct SurfaceField::State {
 
   // Signed distance at lattice node (x, y, z). The last answer is near the next question: it starts the search.
   float node_value(int x, int y, int z) {
-    const Vec3 p = origin + h * Vec3(x, y, z);
-    const SurfacePoint near = tree.closest_point(p, std::numeric_limits<double>::infinity(), start);
-    start = near.triangle;
     ++computed;
+    return node_value_from(x, y, z, start);
+  }
+  float node_value_from(int x, int y, int z, int& from) const {
+    const Vec3 p = origin + h * Vec3(x, y, z);
+    const SurfacePoint near = tree.closest_point(p, std::numeric_limits<double>::infinity(), from);
+    from = near.triangle;
     return static_cast<float>(crossings->winding(x, y, p.z()) > 0 ? -near.distance() : near.distance());
+  }
+
+  // Nodes round the node `centre` whose value is not known yet; they count as asked for from now on.
+  void ask_around(const Eigen::Vector3i& centre, std::vector<Eigen::Vector3i>& asked) {
+    for (int k = -1; k <= 1; ++k)
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+          const Eigen::Vector3i c = centre + Eigen::Vector3i(i, j, k);
+          float& value = values[block(c.x(), c.y(), c.z())][within(c.x(), c.y(), c.z())];
+          if (!std::isnan(value)) continue;
+          value = 0;
+          asked.push_back(c);
+        }
   }
 
   // Lower bound of the distance at p from the nearest node of each coarser lattice, coarsest first.
@@ -343,6 +360,34 @@ double SurfaceField::evaluate_again(const Vec3& p, double reach, Vec3& gradient,
   const double value = s.cells[static_cast<std::size_t>(hint)].evaluate(q - centre.cast<double>(), gradient);
   gradient *= s.inverse_h;
   return value;
+}
+
+void SurfaceField::look_ahead(const Points3& points, double reach) {
+  State& s = *state_;
+  std::vector<Eigen::Vector3i> asked;
+  const double far = reach + 0.5 * s.h;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Vec3 p = points.row(i);
+    const Eigen::Vector3i centre = nearest_index((p - s.origin) * s.inverse_h);
+    if (s.has_cell(centre) && s.known_cell(centre) < 0 && s.far_bound(p, far) <= far) s.ask_around(centre, asked);
+  }
+  std::vector<float> value(asked.size());
+  const auto compute = [&](std::size_t begin, std::size_t end) {
+    int from = s.start;
+    for (std::size_t k = begin; k < end; ++k)
+      value[k] = s.node_value_from(asked[k].x(), asked[k].y(), asked[k].z(), from);
+    return from;
+  };
+  const std::size_t middle = asked.size() / 2;
+  const bool at_once = middle > 0 && lent_threads() && lent_threads()->any_idle();
+  s.start = side_by_side(
+                at_once, [&] { return compute(0, middle); }, [&] { return compute(middle, asked.size()); })
+                .second;
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    const Eigen::Vector3i& c = asked[k];
+    s.values[s.block(c.x(), c.y(), c.z())][State::within(c.x(), c.y(), c.z())] = value[k];
+  }
+  s.computed += static_cast<int>(asked.size());
 }
 
 void SurfaceField::prepare(std::int32_t hint) const {

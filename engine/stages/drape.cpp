@@ -66,6 +66,8 @@ constexpr double kTangledShare = 0.1;  // of piercings in the triangles: worn an
 constexpr double kDeep = 0.002, kDeepEdge = 0.003, kFirmer = 4;
 constexpr int kMostFirmings = 2;
 
+constexpr double kStartReach = 0.001;  // m, within which friction at the start takes nodes as touching the body
+
 constexpr double kPinShare = 50;  // stiffness of a pin over that of contact: 1 N/m of tension moves it by 0.2 mm
 
 void check_options(const DrapeOptions& o) {
@@ -272,6 +274,7 @@ class Draper {
 
   // True: the cloth pulls so hard that nodes lie deep in the body.
   bool relax_on(double stiffness, const Points3& start) {
+    field_->look_ahead(start, thickness_ + kStartReach);
     ContactOptions contact_options;
     contact_options.thickness = thickness_;
     contact_options.stiffness = stiffness;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
+#include "engine/core/spare_threads.h"
 #include "tests/support/tubes.h"
 
 namespace toile {
@@ -105,6 +106,30 @@ TEST(DistanceField, IsFilledOnlyWhereItIsVisitedAndNotWhereNothingIsNear) {
   field.evaluate({0.151, 0.5, 0}, 0.01, gradient);
   EXPECT_GT(field.lattice_nodes_computed(), 0);
   EXPECT_LT(field.lattice_nodes_computed(), 28);
+}
+
+TEST(DistanceField, LookingAheadFillsJustWhatIsVisitedAndTheSameWithAnIdleThread) {
+  const Body body = test::tube_body("tube", 0.05, 0.5, 200, 40);
+  const std::vector<Vec3> list = points_near_wall(0.05, 0.5, 0.015, 500);
+  Points3 points(static_cast<Eigen::Index>(list.size()), 3);
+  for (std::size_t i = 0; i < list.size(); ++i) points.row(static_cast<Eigen::Index>(i)) = list[i].transpose();
+  constexpr double kReach = 0.005;
+  SurfaceField visited(body.surface.vertices, body.surface.triangles),
+      ahead(body.surface.vertices, body.surface.triangles), shared(body.surface.vertices, body.surface.triangles);
+  ahead.look_ahead(points, kReach);
+  const int computed = ahead.lattice_nodes_computed();
+  ASSERT_GT(computed, 500);
+  SpareThreads threads(1);
+  const LendThreads lend(&threads);
+  shared.look_ahead(points, kReach);
+  for (const Vec3& p : list) {
+    Vec3 gradient, other;
+    const double distance = visited.evaluate(p, kReach, gradient), known = ahead.evaluate(p, kReach, other);
+    ASSERT_NEAR(distance, known, 1e-8);
+    ASSERT_EQ(known, shared.evaluate(p, kReach, other));
+  }
+  EXPECT_EQ(ahead.lattice_nodes_computed(), computed);
+  EXPECT_EQ(visited.lattice_nodes_computed(), computed);
 }
 
 TEST(DistanceField, ValuesDoNotDependOnTheOrderOfVisits) {
