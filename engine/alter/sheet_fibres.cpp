@@ -33,17 +33,16 @@ Mat2 fibre_projection(const Mat2& gradient, const Vec2& length) {
   u.normalize();
   v.normalize();
   Mat2 shape;
-  shape.col(0) = u * length[0];
-  shape.col(1) = v * length[1];
+  shape << u * length[0], v * length[1];
   const double across = u.x() * v.y() - u.y() * v.x(), along = u.dot(v);
-  if (across <= 0.0 || std::abs(along) > kSineOfShear) {  // beyond the shear limit: both fibres turn back half each
-    const double angle = std::atan2(across, along);
-    const double back = 0.5 * (angle - std::clamp(angle, kQuarter - kShear, kQuarter + kShear));
-    shape.col(0) = turned(shape.col(0), back);
-    shape.col(1) = turned(shape.col(1), -back);
-  }
-  const Mat2 moment = gradient * shape.transpose();
-  const double c = moment.trace(), s = moment(1, 0) - moment(0, 1), norm = std::sqrt(c * c + s * s);
+  if (across > 0.0 && std::abs(along) <= kSineOfShear) return shape;  // fibres as they lie: no turn brings it nearer
+  // Beyond the shear limit both fibres turn back half each, and all of it to where it is nearest.
+  const double angle = std::atan2(across, along);
+  const double back = 0.5 * (angle - std::clamp(angle, kQuarter - kShear, kQuarter + kShear));
+  shape << turned(shape.col(0), back), turned(shape.col(1), -back);
+  const double c = gradient.cwiseProduct(shape).sum(),
+               s = gradient.row(1).dot(shape.row(0)) - gradient.row(0).dot(shape.row(1)),
+               norm = std::sqrt(c * c + s * s);
   if (norm < 1e-12) return shape;
   return (Mat2() << c, -s, s, c).finished() / norm * shape;
 }
