@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// growth [SCENE] [--sizes N,N,...] [--no-alter]: a whole job without pictures over meshes of 2,500 triangles and more:
+// growth [SCENE] [--sizes N,N,...]: a whole job without pictures over meshes of 2,500 triangles and more:
 // CPU seconds of every stage, the exponent of their growth, and the peak memory of each size.
 #include <cstdio>
 #include <cstdlib>
