@@ -4,7 +4,8 @@
 // Sews and drapes garments of ../shared/data from flat, all of them by default, at 4,300 and 10,000 triangles or as
 // told: CPU time beside the quality reached, and the distance of waist and hem from design/sewing.md's table.
 // --sheet draws every garment from three sides, at the finest size, into one picture. --other-bodies: on two other
-// bodies of the garment's family and on two of another one. growth: over 4k, 10k and 20k triangles.
+// bodies of the garment's family and on two of another one. growth: over 2.5k to 40k triangles, and how far the stretch
+// of each is from that of the finest.
 #include <cstdio>
 #include <fstream>
 
@@ -13,6 +14,7 @@
 #include "engine/render/png.h"
 #include "engine/stages/render_views.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/fine_reference.h"
 #include "tests/support/dressed.h"
 #include "tests/support/shared_data.h"
 
@@ -47,7 +49,7 @@ Request parse(const std::vector<std::string>& words) {
     else if (words[i] == "--other-bodies")
       request.other_bodies = true;
     else if (words[i] == "growth")
-      request.growth = true, request.sizes = {4000, 10000, 20000};
+      request.growth = true, request.sizes = {2500, 5000, 10000, 20000, 40000};
     else
       request.garments.push_back(words[i]);
   }
@@ -86,17 +88,30 @@ class DrapeBench {
   int run(const std::string& csv) {
     for (const std::string& garment : request_.garments)
       for (const std::string& body : bodies_for(request_, garment)) {
-        times_.clear();
+        times_.clear(), answers_.clear();
         for (int triangles : request_.sizes) run_one(garment, body, triangles);
-        if (request_.growth) table_.add({garment, "", "n^" + fixed(growth_exponent({4000, 10000, 20000}, times_), 2)});
+        if (request_.growth) add_growth(garment);
       }
     table_.print(csv);
+    if (request_.growth) growth_.print();
     std::printf("peak memory %.0f MB\n", peak_memory_mb());
     if (!request_.sheet.empty()) write_sheet();
     return 0;
   }
 
  private:
+  // Of what was draped last, coarsest first.
+  void add_growth(const std::string& garment) {
+    std::vector<double> sizes;
+    for (const Answer& answer : answers_) sizes.push_back(answer.mesh.triangle_count());
+    for (std::size_t k = 0; k < answers_.size(); ++k) {
+      const AnswerError error = compare(answers_.back(), answers_[k]);
+      growth_.add({garment, fixed(sizes[k], 0), fixed(times_[k], 2), fixed(100 * error.stretch, 2),
+                   fixed(100 * error.recovered_stretch, 2), fixed(1e3 * error.position, 2), fixed(1e3 * error.hem, 1)});
+    }
+    growth_.add({garment, "all", "n^" + fixed(growth_exponent(sizes, times_), 2), "", "", "", ""});
+  }
+
   void run_one(const std::string& garment, const std::string& body, int triangles) {
     test::Dressing d = test::dress(garment, triangles, body);
     if (request_.iterations) d.options.iterations = *request_.iterations;
@@ -107,6 +122,7 @@ class DrapeBench {
       const DrapeResult r = drape(d.pattern, d.mesh, d.body, d.options, nullptr);
       times_.push_back(cpu_seconds() - start);
       add_row(garment, body, d, r);
+      if (request_.growth) answers_.push_back({d.mesh, r.drape, r.drape, d.mesh.rest, times_.back()});
       if (!request_.sheet.empty() && triangles == request_.sizes.back())
         cells_.push_back(picture(garment + " " + body, d, r.drape));
     } catch (const Error& error) {
@@ -157,6 +173,9 @@ class DrapeBench {
   Table table_{{"garment", "body",    "triangles", "CPU s",   "it",      "rest",    "residual",
                 "move mm", "weft %",  "warp %",    "node mm", "edge mm", "cross",   "crossing %",
                 "waist m", "diff mm", "lowest m",  "diff mm", "rung",    "peak MB", "findings"}};
+  Table growth_{
+      {"garment", "triangles", "CPU s", "stretch rms % off the finest", "recovered", "position mm", "hem mm"}};
+  std::vector<Answer> answers_;  // drapes of one garment on one body
   std::vector<Image> cells_;
   std::vector<double> times_;
 };
