@@ -42,8 +42,16 @@ class Cutting {
     cut_.chains = border_chains(cut_.borders);
     cut_.seams = ChainSeams(cut_.borders, cut_.chains, cut_.corners).find(pattern_, mesh_, target_rest_, cut_.flags);
     if (all_meet()) {
+      const std::vector<PieceBorder> borders = cut_.borders;
+      const std::vector<SewnPiece> pieces = cut_.pieces;
       true_seams(cut_.chains, cut_.seams, fixed_pieces(), mesh_.target_edge_length, cut_.borders, cut_.pieces);
       draw_pieces();
+      for (std::size_t i = 0; i < cut_.drawn.size(); ++i) {
+        if (cut_.drawn[i].edges.sound || !cut_.borders[i].trued) continue;
+        cut_.borders[i] = borders[i];  // too narrow to be trued
+        cut_.pieces[i] = pieces[i];
+        draw_edges(i);
+      }
       if (all_sound()) return std::move(cut_);
     }
     cut_.pieces.clear();
@@ -57,6 +65,7 @@ class Cutting {
   bool all_meet();
   std::vector<bool> fixed_pieces() const;
   void draw_pieces();
+  void draw_edges(std::size_t i);
   bool all_sound();
 
   const Pattern& pattern_;
@@ -85,14 +94,16 @@ bool Cutting::add_panel(int p) {
   const AlteredParts whole = whole_panel(mesh_, target_rest_, panel.target, p);
   const bool known = recut_.contains(p);
   std::string problem = known ? recut_.at(p).why : "";
-  if (problem.empty()) {
+  for (const bool trims : {false, true}) {  // slivers are a reason, and only then a change
+    if (known || (trims && (!altered || problem.empty()))) break;
     const AlteredParts parts =
         altered ? part_altered_panel(mesh_, target_rest_, inserting_.sheets[index], removing_.sheets[index], panel,
-                                     let_out(panel), std::max(pattern_.seam_allowance, kLeastTurnIn))
+                                     let_out(panel), std::max(pattern_.seam_allowance, kLeastTurnIn), trims)
                 : whole;
-    problem = parts.problem.empty() ? try_panel(p, parts, false) : parts.problem;
+    const std::string found = parts.problem.empty() ? try_panel(p, parts, false) : parts.problem;
+    if (found.empty()) return true;
+    if (problem.empty()) problem = found;
   }
-  if (problem.empty()) return true;
   const std::string hopeless = try_panel(p, whole, true);
   if (hopeless.empty()) {
     if (!known) recut_.emplace(p, CutAnew{problem, std::nullopt});
@@ -182,10 +193,16 @@ void Cutting::draw_pieces() {
       drawn.chains.push_back(&cut_.chains[own[k]]);
       cut_.edges[own[k]] = {PanelId(static_cast<int>(i)), static_cast<int>(drawn.reversed ? own.size() - 1 - k : k)};
     }
-    drawn.edges = draw_piece_edges(cut_.borders[i], drawn.chains,
-                                   piece.insertion < 0 && !piece.recut ? &pattern_.panels[p] : nullptr);
     cut_.drawn.push_back(std::move(drawn));
+    draw_edges(i);
   }
+}
+
+void Cutting::draw_edges(std::size_t i) {
+  const SewnPiece& piece = cut_.pieces[i];
+  const bool kept = piece.insertion < 0 && !piece.recut;
+  cut_.drawn[i].edges = draw_piece_edges(cut_.borders[i], cut_.drawn[i].chains,
+                                         kept ? &pattern_.panels[static_cast<std::size_t>(piece.panel)] : nullptr);
 }
 
 // Small and narrow pieces can be nothing, or touch themselves, once they are drawn: their panel is cut anew, and where

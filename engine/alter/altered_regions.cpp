@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/alter/panel_tracks.h"
+#include "engine/alter/trim_slivers.h"
 #include "engine/core/units.h"
 #include "engine/geometry/conform_loops.h"
 #include "engine/geometry/inner_point.h"
@@ -156,8 +157,8 @@ bool takes_away(const Sheet& sheet, const Cut& cut, const PanelAlteration& alter
 class PanelParter {
  public:
   PanelParter(const PatternMesh& mesh, const Points2& target_rest, const Sheet& inserting, const Sheet& removing,
-              const PanelAlteration& alteration)
-      : alteration_(alteration), removing_(removing), tracks_(mesh, target_rest, inserting.panel) {
+              const PanelAlteration& alteration, bool trims)
+      : alteration_(alteration), removing_(removing), trims_(trims), tracks_(mesh, target_rest, inserting.panel) {
     for (const auto& ends : mesh.edge_vertices[static_cast<std::size_t>(inserting.panel)]) {
       corner_vertices_.insert(ends.front());
       corner_vertices_.insert(ends.back());
@@ -187,6 +188,7 @@ class PanelParter {
   };
   const PanelAlteration& alteration_;
   const Sheet& removing_;
+  bool trims_;
   PanelTracks tracks_;
   std::set<int> corner_vertices_;
   std::vector<Vec2> cloth_corners_;
@@ -218,6 +220,7 @@ void PanelParter::grow_insertions(const std::vector<std::vector<Vec2>>& lips, co
           std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return area(a) < area(b); });
       if (largest != parts.end()) grown.outline = largest_part(largest->outline);
     }
+    if (trims_) trim_slivers(grown.outline);
     others[own++] = grown.outline;
     insertions_.push_back(std::move(grown));
   }
@@ -253,10 +256,13 @@ void PanelParter::part_kept_cloth() {
   for (PolygonWithHoles& piece : polygon_difference({alteration_.target}, taken)) {
     if (!piece.holes.empty()) result_.problem = "an insertion lies in the middle of the panel";
     for (std::vector<Vec2>& part : parted_at_touches(piece.outline)) {
-      if (signed_area(part) < kLeastPiece)
+      if (signed_area(part) < kLeastPiece) {
         give_away(part);
-      else
-        kept_.push_back({-1, std::move(part)});
+        continue;
+      }
+      if (trims_)
+        for (const auto& sliver : trim_slivers(part)) give_away(sliver);
+      kept_.push_back({-1, std::move(part)});
     }
   }
 }
@@ -350,8 +356,8 @@ void PanelParter::mark_corners() {
 
 AlteredParts part_altered_panel(const PatternMesh& mesh, const Points2& target_rest, const Sheet& inserting,
                                 const Sheet& removing, const PanelAlteration& alteration,
-                                const std::vector<bool>& let_out, double turn_in) {
-  return PanelParter(mesh, target_rest, inserting, removing, alteration).run(inserting, let_out, turn_in);
+                                const std::vector<bool>& let_out, double turn_in, bool trims) {
+  return PanelParter(mesh, target_rest, inserting, removing, alteration, trims).run(inserting, let_out, turn_in);
 }
 
 AlteredParts whole_panel(const PatternMesh& mesh, const Points2& target_rest, const std::vector<Vec2>& wanted,

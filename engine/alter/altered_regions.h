@@ -43,10 +43,11 @@ struct AlteredParts {
   std::string problem;       // why the panel cannot be parted, or empty
 };
 
-// `let_out`: per insertion, whether the seam allowance gives it.
+// `let_out`: per insertion, whether the seam allowance gives it. `trims`: slivers of less than a millimetre go to what
+// lies beside them.
 AlteredParts part_altered_panel(const PatternMesh& mesh, const Points2& target_rest, const Sheet& inserting,
                                 const Sheet& removing, const PanelAlteration& alteration,
-                                const std::vector<bool>& let_out, double turn_in);
+                                const std::vector<bool>& let_out, double turn_in, bool trims = false);
 
 // The wanted panel in one piece, its borders along its edges.
 AlteredParts whole_panel(const PatternMesh& mesh, const Points2& target_rest, const std::vector<Vec2>& wanted,
