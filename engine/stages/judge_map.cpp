@@ -16,7 +16,8 @@ namespace toile {
 namespace {
 
 // Right maps of the bodies and scans of shared/data, women's to men's and mannequins' to models among them, reach 2.3
-// mm, 12-43 % and .977; turned, headless and one-armed ones 24-115 mm, 59-124 % and .89-.976. The limits stand between.
+// mm, 12-43 % and .977; bodies turned round 15-24 mm, headless and one-armed ones 59-124 % and .89-.976. The limits
+// stand between.
 constexpr double kScanWarned = 0.008, kScanRefused = 0.012;  // m, p95 by area
 constexpr double kScanTailWarned = 0.015;                    // m, p99 without hands
 constexpr double kStretchWarned = 0.35, kStretchRefused = 0.5;
