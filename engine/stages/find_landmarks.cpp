@@ -81,19 +81,29 @@ class Finder {
     return (direction - axis * axis.dot(direction)).normalized();
   }
 
+  struct Crest {
+    double y = 0.0, share = 0.0;  // share: how surely it is one, 0..1
+  };
+
   // Where the front profile of both breasts together has its first crest under the armpit: noise makes crests on one
-  // side alone. None on a chest that only runs on into the belly.
-  std::optional<double> bust_crest() const {
+  // side alone. A chest that only runs on into the belly has none; one that hardly falls back has half of one, lest a
+  // chest and its scan be measured at two places.
+  Crest bust_crest() const {
+    const double sure = 1.5 * kBustCrest * h_;
     std::vector<Vec2> profile;  // y, z
-    double foremost = -1e300;
-    for (double y = levels_.armpit - kBustHigh * h_; y > levels_.armpit - kBustDeep * h_; y -= kBustStep) {
+    double foremost = -1e300, fall = 0.0;
+    for (double y = levels_.armpit - kBustHigh * h_; y > levels_.armpit - kBustDeep * h_ && fall < sure;
+         y -= kBustStep) {
       const std::optional<Vec3> left = chest_front(y, 1.0), right = chest_front(y, -1.0);
       if (!left || !right) continue;
-      profile.emplace_back(y, 0.5 * (left->z() + right->z()));
-      foremost = std::max(foremost, profile.back().y());
-      if (foremost > profile.back().y() + kBustCrest * h_) return middle_of_crest(profile, foremost);
+      const double z = 0.5 * (left->z() + right->z());
+      if (z > foremost && fall > kBustCrest * h_) break;
+      profile.emplace_back(y, z);
+      if (z > foremost) foremost = z, fall = 0.0;
+      fall = std::max(fall, foremost - z);
     }
-    return std::nullopt;
+    if (profile.empty()) return {};
+    return {middle_of_crest(profile, foremost), std::clamp(fall / (kBustCrest * h_) - 0.5, 0.0, 1.0)};
   }
 
   // A blunt crest is uncertain by more than its cap is high: the middle of the cap is surer than its foremost point.
@@ -107,11 +117,11 @@ class Finder {
   }
 
   void add_bust_points() {
-    const std::optional<double> crest = bust_crest();
-    const double y = crest.value_or(flat_bust_level());
+    const Crest crest = bust_crest();
+    const double y = crest.share * crest.y + (1.0 - crest.share) * flat_bust_level();
     for (const Side side : {Left, Right}) {
       const double sign = side == Left ? 1.0 : -1.0;
-      const std::optional<Vec3> front = crest ? chest_front(y, sign) : std::nullopt;
+      const std::optional<Vec3> front = crest.share > 0.5 ? chest_front(y, sign) : std::nullopt;
       add("bust", side, front ? *front : flat_bust(y, sign));
     }
   }

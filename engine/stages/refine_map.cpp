@@ -33,6 +33,8 @@ constexpr Level kLevels[] = {
     {false, 0.012, 6, 0.04, 0.012, 0.5, false}, {false, 0.006, 8, 0.03, 0.010, 0.5, false},
     {false, 0.004, 3, 0.02, 0.008, 0.5, true},
 };
+// Only where the target has no noise to follow: a model's breasts are sharper than the last level of all bends.
+constexpr Level kCleanLevel = {false, 0.0015, 4, 0.02, 0.006, 0.5, true};
 
 std::size_t at(Eigen::Index i) {
   return static_cast<std::size_t>(i);
@@ -138,8 +140,8 @@ std::vector<Pin> proxy_pins(const RegistrationReference& reference, const std::v
 
 // Smoothing a clean model would only round it off.
 FitTarget::FitTarget(const TriangleMesh& seen)
-    : surface_{surface_roughness(seen) > kRoughScan ? taubin_smooth(seen, kTaubinSteps) : seen.vertices,
-               seen.triangles},
+    : clean_(surface_roughness(seen) <= kRoughScan),
+      surface_{clean_ ? seen.vertices : taubin_smooth(seen, kTaubinSteps), seen.triangles},
       tree_(surface_.vertices, surface_.triangles),
       normals_(vertex_normals(surface_.vertices, surface_.triangles)),
       open_vertex_(at(seen.vertex_count()), false),
@@ -178,6 +180,7 @@ Points3 refine_map(const RegistrationReference& reference, const Points3& coarse
     (level.proxy ? proxy : whole).run(level, target, height);
     done += 1.0;
   }
+  if (target.is_clean()) whole.run(kCleanLevel, target, height);
   return whole.positions();
 }
 

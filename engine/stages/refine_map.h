@@ -23,8 +23,10 @@ class FitTarget {
   const SurfaceTree& tree() const { return tree_; }
   Vec3 normal(const SurfacePoint& p) const;  // smooth, not of unit length
   bool on_open_edge(const SurfacePoint& p) const;
+  bool is_clean() const { return clean_; }  // a model, exact to its vertices (surface_roughness)
 
  private:
+  bool clean_;
   TriangleMesh surface_;
   SurfaceTree tree_;
   Points3 normals_;
