@@ -15,7 +15,7 @@ Keyed<Pattern> take_in(const GarmentInput& garment, StageRunner& runner) {
 }
 
 Keyed<Body> take_in(const BodyInput& body, StageRunner& runner) {
-  return runner.run("import_body", 6, input_key(body), [&] { return read_body(body); });
+  return runner.run("import_body", 7, input_key(body), [&] { return read_body(body); });
 }
 
 Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>& pattern, const Keyed<Body>& wearer,
