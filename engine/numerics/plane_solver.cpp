@@ -135,7 +135,8 @@ bool PlaneSolver::invert(const Block& pivot, Block& inverse) {
   const double determinant = pivot.first[0] * pivot.second[1] - pivot.first[1] * pivot.second[0];
   if (!(pivot.first[0] > 0.0) || !(determinant > 0.0) || !std::isfinite(determinant)) return false;
   const double share = 1.0 / determinant;
-  inverse = Block{{pivot.second[1] * share, -pivot.first[1] * share}, {-pivot.second[0] * share, pivot.first[0] * share}};
+  inverse =
+      Block{{pivot.second[1] * share, -pivot.first[1] * share}, {-pivot.second[0] * share, pivot.first[0] * share}};
   return true;
 }
 

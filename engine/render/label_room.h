@@ -16,8 +16,8 @@ struct Label {
   double angle = 0.0;  // of the baseline, rad, counter-clockwise as seen
 };
 
-// One per label: whether there is room for it. Of two that overlap the longer text stays, a name rather than a number; of
-// equals the earlier one.
+// One per label: whether there is room for it. Of two that overlap the longer text stays, a name rather than a number;
+// of equals the earlier one.
 std::vector<bool> labels_with_room(const std::vector<Label>& labels);
 
 }  // namespace toile
