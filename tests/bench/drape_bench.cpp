@@ -75,7 +75,7 @@ std::string names_of(const std::vector<DrapeFinding>& findings) {
 Image picture(const std::string& title, const test::Dressing& d, const Drape& drape) {
   ViewOptions options;
   options.views = {View::Front, View::Left, View::Back};
-  options.view_height = kCellHeight - 60;
+  options.view_height = kCellHeight - 80;  // title and captions besides
   options.max_view_width = kCellWidth / 3;
   options.title = title;
   return draw_views(&d.body.surface, &d.mesh, &drape, nullptr, options);
