@@ -5,16 +5,15 @@
 // threads [GARMENT] [--bodies NAME] [--triangles N]: one job with two threads, and two and four jobs at once, against
 // one job with one. Both tell whether the files are the same to the last byte.
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <mutex>
-#include <sstream>
 #include <thread>
 
 #include "engine/core/error.h"
 #include "tests/bench/proof.h"
 #include "tests/bench/random_body.h"
 #include "tests/bench/whole_job.h"
+#include "tests/bench/words.h"
 #include "tests/support/shared_data.h"
 
 namespace toile::bench {
@@ -27,22 +26,12 @@ struct Request {
   int count = 0;  // of random bodies; 0: those that are named
 };
 
-Request parse(const std::vector<std::string>& words) {
+Request parse(Words words) {
   Request request;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool more = i + 1 < words.size();
-    if (words[i] == "--triangles" && more) {
-      request.triangles = std::atoi(words[++i].c_str());
-    } else if (words[i] == "--count" && more) {
-      request.count = std::atoi(words[++i].c_str());
-    } else if (words[i] == "--bodies" && more) {
-      request.bodies.clear();
-      std::istringstream in(words[++i]);
-      for (std::string part; std::getline(in, part, ',');) request.bodies.push_back(part);
-    } else {
-      request.garment = words[i];
-    }
-  }
+  request.triangles = words.integer("--triangles").value_or(request.triangles);
+  request.count = words.integer("--count").value_or(request.count);
+  request.bodies = words.list("--bodies").value_or(request.bodies);
+  if (!words.rest().empty()) request.garment = words.rest().back();
   return request;
 }
 
@@ -132,7 +121,7 @@ class Batch {
 }  // namespace
 
 int bench_batch(const Arguments& arguments) {
-  const Request request = parse(arguments.words);
+  const Request request = parse(Words(arguments.words));
   Batch batch(options_of(request));
   if (request.count == 0) {
     for (const std::string& body : request.bodies) batch.add(scene_of(request, body), true);
@@ -148,7 +137,7 @@ int bench_batch(const Arguments& arguments) {
 }
 
 int bench_threads(const Arguments& arguments) {
-  Request request = parse(arguments.words);
+  Request request = parse(Words(arguments.words));
   const AlterOptions options = options_of(request);
   const test::Scene scene = scene_of(request, request.bodies.front());
   const JobRun alone = run_job(scene, options);

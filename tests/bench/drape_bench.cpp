@@ -15,6 +15,7 @@
 #include "engine/stages/render_views.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/fine_reference.h"
+#include "tests/bench/words.h"
 #include "tests/support/dressed.h"
 #include "tests/support/shared_data.h"
 
@@ -32,27 +33,17 @@ struct Request {
   bool other_bodies = false, growth = false;
 };
 
-Request parse(const std::vector<std::string>& words) {
+Request parse(Words words) {
   Request request;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool more = i + 1 < words.size();
-    if (words[i] == "--triangles" && more)
-      request.sizes = {std::atoi(words[++i].c_str())};
-    else if (words[i] == "--iterations" && more)
-      request.iterations = std::atoi(words[++i].c_str());
-    else if (words[i] == "--no-self-contact")
-      request.self_contact = SelfContact::Off;
-    else if (words[i] == "--body" && more)
-      request.body = words[++i];
-    else if (words[i] == "--sheet" && more)
-      request.sheet = words[++i];
-    else if (words[i] == "--other-bodies")
-      request.other_bodies = true;
-    else if (words[i] == "growth")
-      request.growth = true, request.sizes = {2500, 5000, 10000, 20000, 40000};
-    else
-      request.garments.push_back(words[i]);
-  }
+  if (const auto triangles = words.integer("--triangles")) request.sizes = {*triangles};
+  request.iterations = words.integer("--iterations");
+  if (words.flag("--no-self-contact")) request.self_contact = SelfContact::Off;
+  request.body = words.text("--body").value_or("");
+  request.sheet = words.text("--sheet").value_or("");
+  request.other_bodies = words.flag("--other-bodies");
+  request.growth = words.flag("growth");
+  if (request.growth) request.sizes = {2500, 5000, 10000, 20000, 40000};
+  request.garments = words.rest();
   if (request.garments.empty()) request.garments = test::shared_garment_names();
   return request;
 }
@@ -187,7 +178,7 @@ int bench_drape(const Arguments& arguments) {
     std::fprintf(stderr, "toile-bench drape needs ../shared/data\n");
     return 2;
   }
-  const Request request = parse(arguments.words);
+  const Request request = parse(Words(arguments.words));
   return DrapeBench(request).run(arguments.csv);
 }
 

@@ -4,12 +4,12 @@
 // lies inside the body or crosses, fit, flips, area, and what is sewn. Pictures: how each fits, and what to cut.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "engine/outputs.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/words.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/shipped_examples.h"
 
@@ -23,20 +23,13 @@ struct Request {
   bool sentences = false;
 };
 
-Request parse(const std::vector<std::string>& words) {
+Request parse(Words words) {
   Request request;
-  request.options.triangles = 4000;
+  request.options.triangles = words.integer("--triangles").value_or(4000);
   request.options.outputs = {"fit_reference.png", "fit_before.png", "fit_target.png", "fit_after.png", "pattern.png"};
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--triangles" && i + 1 < words.size())
-      request.options.triangles = std::atoi(words[++i].c_str());
-    else if (words[i] == "--pictures" && i + 1 < words.size())
-      request.pictures = words[++i];
-    else if (words[i] == "--sentences")
-      request.sentences = true;
-    else
-      request.garments.push_back(words[i]);
-  }
+  request.pictures = words.text("--pictures").value_or("");
+  request.sentences = words.flag("--sentences");
+  request.garments = words.rest();
   return request;
 }
 
@@ -106,7 +99,7 @@ void add_row(Table& table, const Request& request, const test::ShippedExample& e
 }  // namespace
 
 int bench_examples(const Arguments& arguments) {
-  const Request request = parse(arguments.words);
+  const Request request = parse(Words(arguments.words));
   Table table({"garment", "target", "on its own", "as it is", "target pattern", "altered", "before %", "target %",
                "altered %", "flips", "area off %", "sewn steps", "flags", "sewing flags", "CPU s"});
   for (const test::ShippedExample& example : test::kShippedExamples) {

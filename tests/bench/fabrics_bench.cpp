@@ -9,6 +9,7 @@
 #include "engine/core/units.h"
 #include "engine/stages/render_views.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/words.h"
 #include "tests/support/fabric_lab.h"
 
 namespace toile::bench {
@@ -21,18 +22,12 @@ struct Request {
   bool growth = false;
 };
 
-Request parse(const std::vector<std::string>& words) {
+Request parse(Words words) {
   Request request;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == "--rings" && i + 1 < words.size())
-      request.rings = std::atoi(words[++i].c_str());
-    else if (words[i] == "--pictures" && i + 1 < words.size())
-      request.folder = words[++i];
-    else if (words[i] == "--growth")
-      request.growth = true;
-    else
-      request.fabrics.push_back(words[i]);
-  }
+  request.rings = words.integer("--rings").value_or(request.rings);
+  request.folder = words.text("--pictures").value_or("");
+  request.growth = words.flag("--growth");
+  request.fabrics = words.rest();
   if (request.fabrics.empty()) request.fabrics = fabric_names();
   return request;
 }
@@ -85,7 +80,7 @@ void run_growth(const Fabric& fabric, Table& table) {
 }  // namespace
 
 int bench_fabrics(const Arguments& arguments) {
-  const Request request = parse(arguments.words);
+  const Request request = parse(Words(arguments.words));
   Table table(request.growth
                   ? std::vector<std::string>{"fabric", "triangles", "drape %", "folds", "residual", "CPU s"}
                   : std::vector<std::string>{"fabric", "bending length mm", "off elastica %", "triangles", "drape %",

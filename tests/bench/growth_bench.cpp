@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <sstream>
 
 #include "tests/bench/plot.h"
 #include "tests/bench/proof.h"
 #include "tests/bench/whole_job.h"
+#include "tests/bench/words.h"
 
 namespace toile::bench {
 namespace {
@@ -18,23 +18,20 @@ struct Request {
   std::vector<int> sizes = {2500, 5000, 10000, 20000};
 };
 
-Request parse(const std::vector<std::string>& words) {
+Request parse(Words words) {
   Request request;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    if (words[i] == "--sizes" && i + 1 < words.size()) {
-      request.sizes.clear();
-      std::istringstream in(words[++i]);
-      for (std::string part; std::getline(in, part, ',');) request.sizes.push_back(std::atoi(part.c_str()));
-    } else {
-      request.scene = words[i];
-    }
+  if (const auto sizes = words.list("--sizes")) {
+    request.sizes.clear();
+    for (const std::string& size : *sizes) request.sizes.push_back(std::atoi(size.c_str()));
+  }
+  if (!words.rest().empty()) request.scene = words.rest().back();
   return request;
 }
 
 }  // namespace
 
 int bench_growth(const Arguments& arguments) {
-  const Request request = parse(arguments.words);
+  const Request request = parse(Words(arguments.words));
   const test::Scene scene = test::named_scene(request.scene);
   AlterOptions options;
   options.outputs = outputs_named("none");

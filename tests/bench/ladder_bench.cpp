@@ -27,9 +27,7 @@ struct Request {
 
 Request parse(Words words) {
   Request request;
-  const auto whole = [&](const char* name, int& value) {
-    value = static_cast<int>(words.number(name).value_or(value));
-  };
+  const auto whole = [&](const char* name, int& value) { value = words.integer(name).value_or(value); };
   whole("--people", request.people);
   whole("--first", request.first);
   whole("--triangles", request.triangles);

@@ -25,7 +25,7 @@ struct Request {
 
 Request parse(Words words) {
   Request request;
-  request.triangles = static_cast<int>(words.number("--triangles").value_or(request.triangles));
+  request.triangles = words.integer("--triangles").value_or(request.triangles);
   request.residual = words.number("--residual").value_or(request.residual);
   request.stop_settled = words.number("--stop-settled");
   request.frictionless = words.flag("--frictionless");

@@ -7,13 +7,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
-#include <sstream>
 
 #include "engine/core/error.h"
 #include "engine/core/units.h"
 #include "tests/bench/fine_reference.h"
 #include "tests/bench/plot.h"
 #include "tests/bench/proof.h"
+#include "tests/bench/words.h"
 
 namespace toile::bench {
 namespace {
@@ -25,30 +25,20 @@ struct Request {
   bool newton = false;
 };
 
-std::vector<double> numbers(const std::string& text) {
+std::vector<double> numbers(const std::vector<std::string>& texts) {
   std::vector<double> found;
-  std::istringstream in(text);
-  for (std::string part; std::getline(in, part, ',');) found.push_back(std::atof(part.c_str()));
+  for (const std::string& text : texts) found.push_back(std::atof(text.c_str()));
   return found;
 }
 
-Request parse(const std::vector<std::string>& words) {
+Request parse(Words words) {
   Request request;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool more = i + 1 < words.size();
-    if (words[i] == "--sizes" && more)
-      request.sizes = numbers(words[++i]);
-    else if (words[i] == "--residuals" && more)
-      request.residuals = numbers(words[++i]);
-    else if (words[i] == "--fine" && more)
-      request.fine.triangles = std::atoi(words[++i].c_str());
-    else if (words[i] == "--fine-residual" && more)
-      request.fine.stop_residual = std::atof(words[++i].c_str());
-    else if (words[i] == "--newton")
-      request.newton = true;
-    else
-      request.scenes.push_back(words[i]);
-  }
+  if (const auto sizes = words.list("--sizes")) request.sizes = numbers(*sizes);
+  if (const auto residuals = words.list("--residuals")) request.residuals = numbers(*residuals);
+  request.fine.triangles = words.integer("--fine").value_or(request.fine.triangles);
+  request.fine.stop_residual = words.number("--fine-residual").value_or(request.fine.stop_residual);
+  request.newton = words.flag("--newton");
+  request.scenes = words.rest();
   if (request.scenes.empty()) request.scenes = {"leggings_tight", "tshirt_fitted", "dress_sleeveless", "skirt_pencil"};
   return request;
 }
@@ -120,7 +110,7 @@ Plot plot_of(const std::vector<Point>& points) {
 }  // namespace
 
 int bench_pareto(const Arguments& arguments) {
-  const Request request = parse(arguments.words);
+  const Request request = parse(Words(arguments.words));
   std::vector<Point> points;
   for (const std::string& scene : request.scenes) {
     try {

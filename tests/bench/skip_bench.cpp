@@ -14,6 +14,7 @@
 #include "engine/stage_options.h"
 #include "tests/bench/proof.h"
 #include "tests/bench/whole_job.h"
+#include "tests/bench/words.h"
 
 namespace toile::bench {
 namespace {
@@ -192,13 +193,9 @@ class SkipBench {
 }  // namespace
 
 int bench_skip(const Arguments& arguments) {
-  std::string scene = "leggings_tight";
-  int triangles = 4000;
-  for (std::size_t i = 0; i < arguments.words.size(); ++i)
-    if (arguments.words[i] == "--triangles" && i + 1 < arguments.words.size())
-      triangles = std::atoi(arguments.words[++i].c_str());
-    else
-      scene = arguments.words[i];
+  Words words(arguments.words);
+  const int triangles = words.integer("--triangles").value_or(4000);
+  const std::string scene = words.rest().empty() ? "leggings_tight" : words.rest().back();
   return SkipBench(scene, triangles, arguments.repeats).run(arguments.csv);
 }
 

@@ -4,13 +4,13 @@
 // while it ran, beside the budget for 10,000 triangles.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 
 #include "engine/core/error.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/plot.h"
 #include "tests/bench/whole_job.h"
+#include "tests/bench/words.h"
 
 namespace toile::bench {
 namespace {
@@ -21,22 +21,13 @@ struct Request {
   int threads = 1;  // of the job
 };
 
-Request parse(const std::vector<std::string>& words) {
+Request parse(Words words) {
   Request request;
-  request.options.outputs = outputs_named("images");
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool more = i + 1 < words.size();
-    if (words[i] == "--triangles" && more)
-      request.options.triangles = std::atoi(words[++i].c_str());
-    else if (words[i] == "--outputs" && more)
-      request.options.outputs = outputs_named(words[++i]);
-    else if (words[i] == "--preset" && more)
-      request.options.preset = preset_named(words[++i]);
-    else if (words[i] == "--threads" && more)
-      request.threads = std::atoi(words[++i].c_str());
-    else
-      request.scenes.push_back(words[i]);
-  }
+  request.options.outputs = outputs_named(words.text("--outputs").value_or("images"));
+  if (const auto triangles = words.integer("--triangles")) request.options.triangles = *triangles;
+  if (const auto preset = words.text("--preset")) request.options.preset = preset_named(*preset);
+  request.threads = words.integer("--threads").value_or(request.threads);
+  request.scenes = words.rest();
   if (request.scenes.empty()) request.scenes = {"leggings_tight"};
   return request;
 }
@@ -99,7 +90,7 @@ void run_scene(const Request& request, const std::string& name, int repeats, Tab
 }  // namespace
 
 int bench_stages(const Arguments& arguments) {
-  const Request request = parse(arguments.words);
+  const Request request = parse(Words(arguments.words));
   Table table({"scene", "stage", "CPU s", "least", "most", "wall s", "peak MB", "goal", "gate"});
   Bars bars{"CPU seconds of every stage of a job", "CPU s, median; line: least to most", {}, {}, {}, {}};
   for (const std::string& scene : request.scenes) run_scene(request, scene, arguments.repeats, table, bars);

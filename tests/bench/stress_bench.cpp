@@ -46,8 +46,8 @@ struct Request {
 
 Request parse(Words words) {
   Request request;
-  request.scenes = static_cast<int>(words.number("--scenes").value_or(request.scenes));
-  request.limit = std::max(1, static_cast<int>(words.number("--limit").value_or(request.limit)));
+  request.scenes = words.integer("--scenes").value_or(request.scenes);
+  request.limit = std::max(1, words.integer("--limit").value_or(request.limit));
   if (const auto seed = words.text("--seed")) request.seed = std::strtoull(seed->c_str(), nullptr, 10);
   request.kind = words.text("--kind").value_or("");
   request.all = words.flag("--all");

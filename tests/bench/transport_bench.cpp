@@ -25,7 +25,7 @@ struct Request {
 
 Request parse(Words words) {
   Request request;
-  request.triangles = static_cast<int>(words.number("--triangles").value_or(request.triangles));
+  request.triangles = words.integer("--triangles").value_or(request.triangles);
   request.folder = words.text("--pictures").value_or("");
   while (const auto body = words.text("--body")) request.bodies.push_back(*body);
   request.garments = words.rest();

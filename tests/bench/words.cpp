@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 
 namespace toile::bench {
 
@@ -24,6 +25,20 @@ std::optional<std::string> Words::text(const std::string& name) {
 std::optional<double> Words::number(const std::string& name) {
   const std::optional<std::string> value = text(name);
   return value ? std::optional(std::atof(value->c_str())) : std::nullopt;
+}
+
+std::optional<int> Words::integer(const std::string& name) {
+  const std::optional<double> value = number(name);
+  return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
+}
+
+std::optional<std::vector<std::string>> Words::list(const std::string& name) {
+  const std::optional<std::string> value = text(name);
+  if (!value) return std::nullopt;
+  std::vector<std::string> parts;
+  std::istringstream in(*value);
+  for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
+  return parts;
 }
 
 }  // namespace toile::bench

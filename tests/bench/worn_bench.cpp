@@ -6,7 +6,6 @@
 // altered, all to one scale of stretch, and what is cut; one per pair and contact_sheet.png.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -15,6 +14,7 @@
 #include "engine/stages/render_views.h"
 #include "tests/bench/alter_pairs.h"
 #include "tests/bench/derive.h"
+#include "tests/bench/words.h"
 #include "tests/support/shared_data.h"
 
 namespace toile::bench {
@@ -55,23 +55,14 @@ struct Request {
   bool sentences = false;
 };
 
-Request parse(const std::vector<std::string>& words) {
+Request parse(Words words) {
   Request request;
-  request.job.triangles = 4000;
+  request.job.triangles = words.integer("--triangles").value_or(4000);
   request.job.outputs = {"fit_after.png"};
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool more = i + 1 < words.size();
-    if (words[i] == "--triangles" && more)
-      request.job.triangles = std::atoi(words[++i].c_str());
-    else if (words[i] == "--stages" && more)
-      request.stages = words[++i];
-    else if (words[i] == "--pictures" && more)
-      request.pictures = words[++i];
-    else if (words[i] == "--sentences")
-      request.sentences = true;
-    else
-      request.garments.push_back(words[i]);
-  }
+  request.stages = words.text("--stages").value_or("");
+  request.pictures = words.text("--pictures").value_or("");
+  request.sentences = words.flag("--sentences");
+  request.garments = words.rest();
   return request;
 }
 
@@ -150,7 +141,7 @@ int bench_worn(const Arguments& arguments) {
     std::fprintf(stderr, "toile-bench worn needs ../shared/data\n");
     return 2;
   }
-  const Request request = parse(arguments.words);
+  const Request request = parse(Words(arguments.words));
   const auto stages = stage_store(request.stages);
   Table table({"garment", "worn by", "for", "before %", "ideal %", "altered %", "rest", "inside", "operations",
                "in cm2", "out cm2", "balance %", "flags"});
