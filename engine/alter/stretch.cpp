@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/alter/sheet_fibres.h"
+#include "engine/core/weighted_quantile.h"
 
 namespace toile {
 namespace {
@@ -63,9 +64,8 @@ void relax(Sheet& sheet, const RelaxOptions& options, Progress* progress, SheetE
 
 SheetStress measure_stress(const Sheet& sheet, double limit) {
   SheetStress stress;
-  using Strains = std::vector<std::pair<double, double>>;  // value, area
-  Strains tension;
-  std::array<Strains, 2> along;  // weft, warp
+  WeightedValues tension;
+  std::array<WeightedValues, 2> along;  // weft, warp
   Vec2 lengthened = Vec2::Zero();
   for (std::size_t f = 0; f < sheet.faces.size(); ++f) {
     if (sheet.folded[f]) continue;
@@ -78,18 +78,11 @@ SheetStress measure_stress(const Sheet& sheet, double limit) {
     lengthened += area * (now.colwise().norm().transpose() - length);
     for (int k = 0; k < 2; ++k) along[static_cast<std::size_t>(k)].emplace_back(now.col(k).norm() - 1.0, area);
   }
-  const auto percentile = [&](Strains& strains, double share) {
-    std::sort(strains.begin(), strains.end());
-    double below = 0.0;
-    for (const auto& [value, area] : strains)
-      if ((below += area) >= share * stress.area) return value;
-    return 0.0;
-  };
-  stress.p95 = percentile(tension, 0.95);
-  stress.p98 = percentile(tension, 0.98);
+  stress.p95 = weighted_quantile(tension, 0.95);
+  stress.p98 = weighted_quantile(tension, 0.98);
   const Vec2 extent = extent_of(sheet);
   for (int k = 0; k < 2; ++k)
-    stress.way = std::max(stress.way, extent[k] * percentile(along[static_cast<std::size_t>(k)], 0.95));
+    stress.way = std::max(stress.way, extent[k] * weighted_quantile(along[static_cast<std::size_t>(k)], 0.95));
   if (stress.area > 0.0) stress.shift = std::max(0.0, extent.cwiseProduct(lengthened).maxCoeff() / stress.area);
   for (const auto& [value, area] : tension)
     if (value > limit) stress.over += area;

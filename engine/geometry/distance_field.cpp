@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/side_by_side.h"
+#include "engine/geometry/line_crossings.h"
 
 namespace toile {
 
@@ -57,73 +58,6 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr int kBlockNodes = kBlock * kBlock * kBlock;
 constexpr std::int64_t kMostColumns = 4'000'000, kMostBlocks = 40'000'000;
 constexpr int kMostNodes = std::numeric_limits<std::int16_t>::max();  // along an axis
-
-// Heights at which vertical (z) lattice lines cross the surface, line by line.
-class Crossings {
- public:
-  struct Crossing {
-    double z;
-    int change;  // of the winding number on passing upwards in z
-  };
-
-  Crossings(const Points3& vertices, const Triangles& triangles, const Vec2& origin, double spacing, int nx, int ny)
-      : origin_(origin), spacing_(spacing), nx_(nx), ny_(ny), begin_(static_cast<std::size_t>(nx) * ny + 1, 0) {
-    for (int pass = 0; pass < 2; ++pass) {
-      for (Eigen::Index f = 0; f < triangles.rows(); ++f)
-        rasterise(vertices.row(triangles(f, 0)), vertices.row(triangles(f, 1)), vertices.row(triangles(f, 2)), pass);
-      if (pass == 0) {
-        for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-        crossings_.resize(static_cast<std::size_t>(begin_.back()));
-      }
-    }
-    // The second pass counted every line's start down to where the line begins.
-    for (std::size_t i = 0; i + 1 < begin_.size(); ++i)
-      std::sort(crossings_.begin() + begin_[i], crossings_.begin() + begin_[i + 1],
-                [](const Crossing& a, const Crossing& b) { return a.z < b.z; });
-  }
-
-  int winding(int ix, int iy, double z) const {
-    const std::size_t line =
-        static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(ix);
-    int winding = 0;
-    for (int k = begin_[line]; k < begin_[line + 1] && crossings_[static_cast<std::size_t>(k)].z < z; ++k)
-      winding += crossings_[static_cast<std::size_t>(k)].change;
-    return winding;
-  }
-
- private:
-  void rasterise(const Vec3& a, const Vec3& b, const Vec3& c, int pass) {
-    const auto index = [&](double v, int axis) { return (v - origin_[axis]) / spacing_; };
-    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    // Widened by a little: which triangle owns a line is for line_crossing alone to say, not for rounding here.
-    const auto first = [&](double v, int axis) {
-      return std::max(0, static_cast<int>(std::ceil(index(v, axis) - 1e-6)));
-    };
-    const auto last = [&](double v, int axis, int count) {
-      return std::min(count - 1, static_cast<int>(std::floor(index(v, axis) + 1e-6)));
-    };
-    const int x0 = first(low.x(), 0), x1 = last(high.x(), 0, nx_), y0 = first(low.y(), 1), y1 = last(high.y(), 1, ny_);
-    for (int iy = y0; iy <= y1; ++iy)
-      for (int ix = x0; ix <= x1; ++ix) {
-        const Vec2 at = origin_ + spacing_ * Vec2(ix, iy);
-        double z = 0;
-        const int side = line_crossing(at, a, b, c, z);
-        if (side == 0) continue;
-        const std::size_t line =
-            static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(ix);
-        if (pass == 0)
-          ++begin_[line];
-        else
-          crossings_[static_cast<std::size_t>(--begin_[line])] = {z, -side};
-      }
-  }
-
-  Vec2 origin_;
-  double spacing_;
-  int nx_, ny_;
-  std::vector<int> begin_;
-  std::vector<Crossing> crossings_;
-};
 
 }  // namespace
 
@@ -183,7 +117,7 @@ struct SurfaceField::State {
   double h = 0, inverse_h = 0;
   Vec3 origin;                    // of all lattices
   Eigen::Vector3i nodes, blocks;  // counts along each axis; blocks = ceil(nodes / kBlock)
-  std::unique_ptr<Crossings> crossings;
+  std::unique_ptr<LineCrossings> crossings;
   std::vector<std::int32_t> block_slot;  // dense; -1 not touched, else number in `values`
   std::vector<std::array<float, kBlockNodes>> values;
   std::vector<std::array<std::int32_t, kBlockNodes>> cell_slot;  // beside `values`; -1 no cell there, else its number
@@ -319,7 +253,7 @@ SurfaceField::SurfaceField(const Points3& vertices, const Triangles& triangles, 
     level.distance.assign(static_cast<std::size_t>(level.count.prod()), kUnknown);
     s.coarse.push_back(std::move(level));
   }
-  s.crossings = std::make_unique<Crossings>(vertices, triangles, s.origin.head<2>(), s.h, s.nodes.x(), s.nodes.y());
+  s.crossings = std::make_unique<LineCrossings>(vertices, triangles, s.origin.head<2>(), s.h, s.nodes.x(), s.nodes.y());
   s.block_slot.assign(static_cast<std::size_t>(blocks), -1);
 }
 

@@ -13,36 +13,9 @@
 #include "engine/stages/arrange_panels.h"
 #include "engine/stages/drape_series.h"
 #include "engine/stages/find_node_mirror.h"
-#include "engine/stages/find_skeleton.h"
+#include "engine/stages/prepared_body.h"
 
 namespace toile {
-
-// What drapes on one body may share.
-struct PreparedBody {
-  explicit PreparedBody(const Body& given) : body(given) {
-    if (body.kind == BodyKind::Human && !body.skeleton) body.skeleton = find_skeleton(body.surface).skeleton;
-  }
-
-  const BodyGuides& guides() {
-    if (!guides_) guides_ = find_body_guides(body, SurfaceTree(body.surface.vertices, body.surface.triangles));
-    return *guides_;
-  }
-
-  SurfaceField& field(bool armless) {
-    std::unique_ptr<SurfaceField>& field = fields_[armless];
-    if (!field) {
-      const TriangleMesh surface = armless ? body_without_arms(body) : body.surface;
-      field = std::make_unique<SurfaceField>(surface.vertices, surface.triangles);
-    }
-    return *field;
-  }
-
-  Body body;
-
- private:
-  std::optional<BodyGuides> guides_;
-  std::array<std::unique_ptr<SurfaceField>, 2> fields_;
-};
 
 namespace {
 
@@ -97,7 +70,7 @@ class Draper {
       : pattern_(pattern),
         mesh_(mesh),
         prepared_(body),
-        body_(body.body),
+        body_(body.body()),
         options_(options),
         progress_(progress),
         cloth_(make_cloth(pattern, mesh)) {

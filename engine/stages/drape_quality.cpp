@@ -5,30 +5,19 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/core/weighted_quantile.h"
+
 namespace toile {
 namespace {
 
 constexpr double kNodeDepth = 0.001, kEdgeDepth = 0.003;  // m, beyond which a node or edge midpoint counts as inside
 
-StrainPercentiles percentiles(std::vector<std::pair<double, double>> magnitude_and_area) {
-  std::sort(magnitude_and_area.begin(), magnitude_and_area.end());
-  double total = 0, sum = 0;
-  for (const auto& [magnitude, area] : magnitude_and_area) total += area;
-  StrainPercentiles result;
-  bool half = false;
-  for (const auto& [magnitude, area] : magnitude_and_area) {
-    sum += area;
-    if (!half && sum >= 0.5 * total) result.p50 = magnitude, half = true;
-    if (sum >= 0.99 * total) {
-      result.p99 = magnitude;
-      break;
-    }
-  }
-  return result;
+StrainPercentiles percentiles(WeightedValues magnitudes) {
+  return {weighted_quantile(magnitudes, 0.5), weighted_quantile(magnitudes, 0.99)};
 }
 
 void measure_strain(const PatternMesh& mesh, const Drape& drape, DrapeQuality& quality) {
-  std::vector<std::pair<double, double>> weft, warp, shear;
+  WeightedValues weft, warp, shear;
   for (int f = 0; f < mesh.triangle_count(); ++f) {
     const Eigen::Vector3i n = mesh.nodes_of_triangle(f);
     Mat2 rest;

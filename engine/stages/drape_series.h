@@ -21,7 +21,7 @@ class DrapeSeries {
                          const DrapeOptions& options, Progress* progress);
 
  private:
-  std::unique_ptr<struct PreparedBody> body_;
+  std::unique_ptr<class PreparedBody> body_;
 };
 
 }  // namespace toile

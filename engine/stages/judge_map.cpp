@@ -7,6 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/core/weighted_quantile.h"
 #include "engine/geometry/edge_graph.h"
 #include "engine/geometry/surface_operators.h"
 #include "engine/stages/body_bones.h"
@@ -36,22 +37,9 @@ double quantile(std::vector<double>& values, double fraction) {
   return values[nth];
 }
 
-struct Share {
-  double value, weight;
-};
-
-double quantile(std::vector<Share>& shares, double fraction) {
-  std::sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) { return a.value < b.value; });
-  double all = 0.0, passed = 0.0;
-  for (const Share& s : shares) all += s.weight;
-  for (const Share& s : shares)
-    if ((passed += s.weight) >= fraction * all) return s.value;
-  return shares.empty() ? 0.0 : shares.back().value;
-}
-
-double mean(const std::vector<Share>& shares) {
+double mean(const WeightedValues& values) {
   double sum = 0.0, all = 0.0;
-  for (const Share& s : shares) sum += s.weight * s.value, all += s.weight;
+  for (const auto& [value, weight] : values) sum += weight * value, all += weight;
   return all > 0 ? sum / all : 0.0;
 }
 
@@ -115,7 +103,7 @@ class Judge {
     const Points3& points = target_.surface().vertices;
     const Eigen::VectorXd areas = vertex_areas(points, target_.surface().triangles);
     const auto step = std::max<Eigen::Index>(1, points.rows() / kScanSamples);
-    std::vector<Share> all, without_hands;
+    WeightedValues all, without_hands;
     for (Eigen::Index v = 0; v < points.rows(); v += step) {
       if (visible[v] == 0) continue;
       const SurfacePoint c = tree.closest_point(points.row(v));
@@ -124,8 +112,8 @@ class Judge {
         without_hands.push_back(all.back());
     }
     report_.scan_mean = mean(all);
-    report_.scan_p95 = quantile(all, 0.95);
-    report_.scan_p99_without_hands = quantile(without_hands, 0.99);
+    report_.scan_p95 = weighted_quantile(all, 0.95);
+    report_.scan_p99_without_hands = weighted_quantile(without_hands, 0.99);
   }
 
   void measure_stretch() {
