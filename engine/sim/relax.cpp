@@ -6,6 +6,7 @@
 
 #include "engine/core/units.h"
 #include "engine/sim/membrane.h"
+#include "engine/sim/standstill.h"
 
 namespace toile {
 namespace {
@@ -144,6 +145,7 @@ class Relaxation {
     result_.residual = energy_.residual(minimiser.gradient());
     result_.converged = result_.residual < options_.stop_residual;
     if (!whole_round) return;
+    result_.stalled |= standstill_.after_round(result_.residual, minimiser.energy());
     const std::vector<Vec3> means = watched_means(minimiser.nodes());
     result_.last_move = 0;
     for (std::size_t k = 0; k < means.size(); ++k)
@@ -182,6 +184,7 @@ class Relaxation {
   double calm_residual_ = 0.0;
   bool knotted_ = false;  // layers that cross still push
   int calm_rounds_ = 0;   // so far
+  Standstill standstill_;
   RelaxResult result_;
 };
 

@@ -35,7 +35,7 @@ struct RelaxResult {
   int evaluations = 0;
   bool converged = false;  // stop_residual reached with friction just frozen
   bool settled = false;    // settled_residual and settled_move reached over a full round
-  bool stalled = false;    // the line search found no further decrease
+  bool stalled = false;    // no further decrease could be found, or it gets nowhere (standstill.h)
 };
 
 RelaxResult relax(DrapeEnergy& energy, const Points3& start, const RelaxOptions& options, Progress* progress);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/sim/standstill.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace toile {
+namespace {
+
+// Rounds until it is told, at most 100; `residual` and `energy` of round i.
+template <class Residual, class Energy>
+int rounds(Residual residual, Energy energy) {
+  Standstill standstill;
+  for (int i = 0; i < 100; ++i)
+    if (standstill.after_round(residual(i), energy(i))) return i + 1;
+  return 100;
+}
+
+TEST(Standstill, IsToldWhereForcesStayFarFromRest) {
+  EXPECT_EQ(rounds([](int i) { return i % 2 ? 1500.0 : 1200.0; }, [](int i) { return i % 3 ? 123.2 : 123.1; }),
+            Standstill::kRounds + 1);
+}
+
+TEST(Standstill, IsNotToldOfClothNearRest) {
+  EXPECT_EQ(rounds([](int) { return 5.0; }, [](int) { return 1.3; }), 100);
+}
+
+TEST(Standstill, IsNotToldWhileForcesFall) {
+  EXPECT_EQ(rounds([](int i) { return 1e9 * std::pow(0.9, i); }, [](int) { return -1.0; }), 100);
+}
+
+TEST(Standstill, IsNotToldWhileEnergyFalls) {
+  EXPECT_EQ(rounds([](int) { return 1e4; }, [](int i) { return -1.0 - 0.01 * i * i; }), 100);
+}
+
+TEST(Standstill, CountsFromTheLastGain) {
+  EXPECT_EQ(rounds([](int i) { return i < 8 ? 1000.0 : 240.0; }, [](int) { return 1.0; }), 8 + Standstill::kRounds + 1);
+}
+
+}  // namespace
+}  // namespace toile
