@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 
-#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/geometry/curve.h"
 #include "engine/geometry/inner_point.h"
@@ -183,44 +182,11 @@ Drawing draw_unsewn(const Pattern& pattern, const AlterPatternResult& alteration
   return drawing;
 }
 
-// One line per tear of a pass: "2: edge 4, 12.0 mm open".
-std::vector<std::string> tear_words(const PanelTearing& tearing, const char* pass) {
-  std::vector<std::string> words;
-  for (const MadeTear& made : tearing.tears)
-    words.push_back(print_text("%s %d: side %d, %.1f mm open, releases %.0f %%", pass, made.round + 1, made.tear.side,
-                               made.largest_gap * kMmPerMetre, 100 * made.release));
-  return words;
-}
-
 }  // namespace
 
 Drawing draw_alteration(const Pattern& pattern, const AlterPatternResult& alteration) {
   if (alteration.sewn.pieces.empty()) return draw_unsewn(pattern, alteration);
   return AlterationDrawer(pattern, alteration).draw();
-}
-
-Drawing draw_tears(const Pattern& pattern, const AlterPatternResult& alteration) {
-  Drawing drawing{pattern.name, {}};
-  for (const PanelAlteration& panel : alteration.panels) {
-    std::vector<std::string> words = tear_words(panel.insertion_pass, "insert");
-    for (std::string& word : tear_words(panel.removal_pass, "remove")) words.push_back(std::move(word));
-    if (words.empty()) continue;
-    DrawingPiece piece;
-    piece.name = piece.label = panel.panel;
-    piece.role = PieceRole::Guide;
-    const std::vector<Vec2> original = in_mm(panel.original);
-    piece.lines = {closed(LineKind::Stitch, original)};
-    for (const AlteredRegion& region : panel.removals)
-      piece.lines.push_back(closed(LineKind::Removal, in_mm(region.shape.outline)));
-    for (const auto& cut : panel.cut_lines) piece.lines.push_back({LineKind::Insertion, in_mm(cut), false, {}});
-    const auto [low, high] = bounds(piece);
-    piece.texts.push_back({Vec2(0.5 * (low.x() + high.x()), high.y() + 12), 10.0, panel.panel});
-    for (std::size_t i = 0; i < words.size(); ++i)
-      piece.texts.push_back(
-          {Vec2(0.5 * (low.x() + high.x()), low.y() - 16.0 * static_cast<double>(i + 1)), 7.0, words[i]});
-    drawing.pieces.push_back(std::move(piece));
-  }
-  return drawing;
 }
 
 }  // namespace toile

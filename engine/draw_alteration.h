@@ -14,8 +14,4 @@ namespace toile {
 
 Drawing draw_alteration(const Pattern& pattern, const AlterPatternResult& alteration);
 
-// The cuts of every altered panel in the order they were made, each with its round and what it released of the panel's
-// strain [Eggler2024, Fig. 12].
-Drawing draw_tears(const Pattern& pattern, const AlterPatternResult& alteration);
-
 }  // namespace toile

@@ -9,6 +9,7 @@
 #include "engine/core/side_by_side.h"
 #include "engine/core/units.h"
 #include "engine/draw_alteration.h"
+#include "engine/draw_tears.h"
 #include "engine/io/body_json.h"
 #include "engine/io/drape_obj.h"
 #include "engine/io/dxf.h"
@@ -200,8 +201,10 @@ void AlterationFiles::make_patterns() {
   for (const auto& [name, sheet] : kPrints)
     files_.make(name, "application/pdf", [this, paper = sheet] { return write_pdf(drawing_.value(), {paper, {}}); });
   files_.make("pattern.png", kPng, [this] { return write_png(draw_picture(drawing_.value())); });
-  files_.make_if_named("tears.png", kPng,
-                       [this] { return write_png(draw_picture(draw_tears(r_.reference.pattern, r_.altered))); });
+  files_.make_if_named("tears.png", kPng, [this] {
+    return write_png(picture_of_tears(draw_tears(r_.reference.pattern, r_.reference.mesh, r_.derived.mesh.rest,
+                                                 r_.altered, alter_options_of(options_))));
+  });
   const Pattern& target = r_.derived.drawn.pattern;
   files_.make("target_pattern.json", kJson, [&] { return bytes_of(write_garmentcode(target)); });
   files_.make("target_pattern.svg", kSvg, [&] { return write_svg(draw_changes(r_.reference.pattern, target)); });

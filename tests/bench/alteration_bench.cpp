@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "engine/draw_alteration.h"
+#include "engine/draw_tears.h"
 #include "engine/io/pdf.h"
 #include "engine/io/record_json.h"
 #include "engine/io/svg.h"
@@ -42,7 +43,7 @@ int bench_alteration(const Arguments& arguments) {
   write("altered_pattern.svg", write_svg(drawing));
   write("altered_pattern.pdf", write_pdf(drawing));
   write("pattern.png", write_png(draw_picture(drawing)));
-  write("tears.png", write_png(draw_picture(draw_tears(pattern, altered))));
+  write("tears.png", write_png(picture_of_tears(draw_tears(pattern, mesh, wanted, altered, {}))));
   write("ticket.html", write_ticket_html(altered.ticket, write_svg(drawing, {false, true})));
   write("ticket.json", write_json(ticket_record(altered.ticket)));
   for (const TicketOperation& operation : altered.ticket.operations) std::printf("%s\n", operation.sentence.c_str());

@@ -104,13 +104,5 @@ TEST(DrawAlteration, TheGuideShowsInsertionsInTheirPlace) {
   EXPECT_NEAR(polygon_area(lines_of(guide, LineKind::Stitch).at(0).points), 440 * 600, 1);
 }
 
-TEST(DrawAlteration, TearsAreListedForAlteredPanelsOnly) {
-  const Example example(wider);
-  const Drawing tears = draw_tears(example.garment.pattern, example.result);
-  ASSERT_EQ(tears.pieces.size(), 1u);
-  ASSERT_GE(tears.pieces[0].texts.size(), 2u);
-  EXPECT_NE(tears.pieces[0].texts[1].text.find(" mm open, releases "), std::string::npos);
-}
-
 }  // namespace
 }  // namespace toile
