@@ -5,6 +5,7 @@
 #include "engine/geometry/half_edges.h"
 #include "engine/geometry/surface_operators.h"
 #include "engine/numerics/sparse_solver.h"
+#include "engine/stages/body_bones.h"
 
 namespace toile {
 namespace {
@@ -15,6 +16,7 @@ constexpr double kTangential = 0.15;  // share of the pull along the surface
 constexpr double kFaceShare = 0.75;
 constexpr double kLeastCotangent = 1e-3, kMostCotangent = 10.0;
 constexpr double kPinAreas = 30.0;  // weight of a pin: this many times ell^2, so that it wins
+constexpr double kHead = 0.3;       // a vertex with more of the head may be the mouth's inside
 constexpr double kSettled = 5e-5;   // of the height: a level ends when the mean move is under it
 
 // Lengths as fractions of the height.
@@ -55,6 +57,7 @@ class Plate {
   Points3 displacement_;
 
   Points3 positions() const { return base_ + displacement_; }
+  void set_visible(Eigen::VectorXd visible) { visible_ = std::move(visible); }
 
   void run(const Level& level, const FitTarget& target, double height) {
     const double ell = level.ell * height;
@@ -136,6 +139,15 @@ std::vector<Pin> proxy_pins(const RegistrationReference& reference, const std::v
   return out;
 }
 
+// A scanner sees no skin where thighs or arm and trunk press on each other; a model has it, and left to the plate alone
+// the crotch stays a tunnel above thighs that touch. A mouth has no counterpart anywhere.
+Eigen::VectorXd visible_or_pressed(const RegistrationReference& reference) {
+  Eigen::VectorXd visible = reference.visible;
+  for (Eigen::Index v = 0; v < visible.size(); ++v)
+    if (reference.weights(v, Head) < kHead) visible[v] = 1.0;
+  return visible;
+}
+
 }  // namespace
 
 // Smoothing a clean model would only round it off.
@@ -180,7 +192,10 @@ Points3 refine_map(const RegistrationReference& reference, const Points3& coarse
     (level.proxy ? proxy : whole).run(level, target, height);
     done += 1.0;
   }
-  if (target.is_clean()) whole.run(kCleanLevel, target, height);
+  if (target.is_clean()) {
+    whole.set_visible(visible_or_pressed(reference));
+    whole.run(kCleanLevel, target, height);
+  }
   return whole.positions();
 }
 

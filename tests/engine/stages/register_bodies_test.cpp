@@ -203,6 +203,12 @@ TEST(SlowRegisterBodies, KeepsTheGirthsOfTheTarget) {
   expect_girths(kMean, test::scan_case("scan_b"));
 }
 
+// Thighs that press on each other for centimetres under the crotch hide each other's skin.
+TEST(SlowRegisterBodies, KeepsTheGirthsWhereThighsTouch) {
+  TOILE_REQUIRE_SHARED_DATA();
+  expect_girths(kMean, test::shuffled_case("ggg_male_extra"));
+}
+
 // The scanner has joined this heavy woman's thighs by a web 2 cm under the crotch, and the crotch itself is cut away.
 TEST(SlowRegisterBodies, KeepsTheGirthsWhereAWebHidesTheCrotch) {
   TOILE_REQUIRE_SHARED_DATA();
