@@ -61,7 +61,8 @@ ClothContact::ClothContact(const Cloth& cloth, const PatternMesh& mesh, const Cl
       triangles_(sewn_triangles(mesh)),
       patches_(patches_of(mesh, triangles_)),
       reach_(kMostReach * cloth.mean_edge),
-      marked_(static_cast<std::size_t>(cloth.node_count), false) {
+      marked_(static_cast<std::size_t>(cloth.node_count), false),
+      swelling_(Points3::Zero(cloth.node_count, 3)) {
   boxes_.resize(static_cast<std::size_t>(triangles_.rows()));
   centre_.setZero(triangles_.rows(), 3);
   normal_.setZero(triangles_.rows(), 3);
@@ -133,7 +134,21 @@ bool ClothContact::refresh(const Points3& nodes) {
   for (const PiercedTriangle& piercing : piercings_) add_push(nodes, piercing);
   if (options_.mirror) planes_.reflect(options_.mirror->image);
   planes_.sort();
-  return pierced || !piercings_.empty();
+  return pierced || !piercings_.empty() || swollen_;
+}
+
+void ClothContact::swell(const Points3& nodes) {
+  pairs_.swell(nodes, swelling_);
+  if (options_.mirror) symmetrise(*options_.mirror, swelling_);
+  swollen_ = swelling_.any();
+}
+
+// Of a pair's closest points towards each other.
+double ClothContact::swelling(const LayerPair& pair, const std::array<double, 4>& weight) const {
+  double sum = 0;
+  if (!swollen_) return sum;
+  for (std::size_t k = 0; k < 4; ++k) sum += std::max(0.0, weight[k] * swelling_.row(pair.node[k]).dot(pair.normal));
+  return sum;
 }
 
 // Triangles within reach, out of candidates that are searched for anew only when nodes have moved too far.
@@ -215,6 +230,8 @@ void ClothContact::find_vertex_pairs(const Points3& nodes, int f, int g) {
     pair.thickness = thickness_of(f, g, [&](const Mat3& one, const Mat3& other) {
       return closest_point_on_triangle(one.row(k), other.row(0), other.row(1), other.row(2)).distance();
     });
+    const Vec3& inside = nearest.barycentric;
+    pair.taken_up = swelling(pair, {1, -inside[0], -inside[1], -inside[2]});
     pair.stiffness = kVertexShare * options_.stiffness * cloth_.node_area[v];
     pairs_.add(pair, nodes);
   }
@@ -246,6 +263,7 @@ void ClothContact::find_edge_pairs(const Points3& nodes, int f, int g) {
         return closest_points_of_segments(one.row(k), one.row((k + 1) % 3), two.row(l), two.row((l + 1) % 3))
             .apart.norm();
       });
+      pair.taken_up = swelling(pair, {1 - nearest.s, nearest.s, nearest.t - 1, -nearest.t});
       pair.stiffness = kEdgeShare * options_.stiffness * 0.25 *
                        (cloth_.node_area[p] + cloth_.node_area[q] + cloth_.node_area[r] + cloth_.node_area[s]);
       pairs_.add(pair, nodes);

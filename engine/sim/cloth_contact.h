@@ -37,6 +37,9 @@ class ClothContact {
   // Finds the pairs at `nodes` (#N x 3). True where cloth is or was pierced: the energy changes, evaluate again.
   bool refresh(const Points3& nodes);
 
+  // Lets layers swell that are pressed together (layer_pairs.h): the energy changes with the next refresh.
+  void swell(const Points3& nodes);
+
   // Forces between layers as found by the last refresh.
   const LayerPairs& pairs() const { return pairs_; }
   // Fixes their closest points and directions, until the next refresh.
@@ -73,6 +76,7 @@ class ClothContact {
   void mark_around_piercings();
   void find_vertex_pairs(const Points3& nodes, int f, int g);
   void find_edge_pairs(const Points3& nodes, int f, int g);
+  double swelling(const LayerPair& pair, const std::array<double, 4>& weight) const;
   void add_planes(const LayerPair& pair, double distance, double along);
   template <class Distance>
   double thickness_of(int f, int g, Distance distance_at_rest) const;
@@ -105,6 +109,8 @@ class ClothContact {
   std::vector<PiercedTriangle> piercings_;
   std::vector<char> marked_;  // nodes near a piercing
   LayerPairs pairs_;
+  Points3 swelling_;  // #N x 3, m
+  bool swollen_ = false;
   NodePlanes planes_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace toile {
@@ -17,18 +18,66 @@ constexpr double kSmooth = 1.3;
 ClothPatches::ClothPatches(const Triangles& triangles, const Points2& rest, const std::vector<int>& panel)
     : triangles_(triangles), order_(static_cast<std::size_t>(triangles.rows())) {
   std::iota(order_.begin(), order_.end(), 0);
+  std::vector<int> number;  // of the panels there are, per triangle
   for (int begin = 0, end = 0, count = static_cast<int>(order_.size()); begin < count; begin = end) {
     while (end < count && panel[static_cast<std::size_t>(end)] == panel[static_cast<std::size_t>(begin)]) ++end;
-    divide(rest, begin, end);
+    const int next = number.empty() ? 0 : number.back() + 1;
+    number.resize(static_cast<std::size_t>(end), next);
+    divide(rest, begin, end, next);
   }
+  find_sides(number);
   boxes_.resize(order_.size());
   find_neighbours();
   by_height_.resize(patches_.size());
 }
 
-void ClothPatches::divide(const Points2& rest, int begin, int end) {
+// Panels need not face the same way where they are sewn together: without knowing, the two layers of a sleeve pressed
+// flat would count as one smooth piece.
+void ClothPatches::find_sides(const std::vector<int>& panel) {
+  struct Side {
+    std::pair<int, int> nodes;
+    int panel;
+    bool forward;  // from the lower node to the higher one
+  };
+  std::vector<Side> sides;
+  for (int f = 0; f < triangles_.rows(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const int a = triangles_(f, k), b = triangles_(f, (k + 1) % 3);
+      sides.push_back({std::minmax({a, b}), panel[static_cast<std::size_t>(f)], a < b});
+    }
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return a.nodes != b.nodes ? a.nodes < b.nodes : a.panel < b.panel; });
+  std::map<std::pair<int, int>, std::array<int, 2>> sewn;  // edges by which two panels face the same way, and not
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    for (std::size_t j = i + 1; j < sides.size() && sides[j].nodes == sides[i].nodes; ++j)
+      if (sides[i].panel != sides[j].panel)
+        ++sewn[{sides[i].panel, sides[j].panel}][sides[i].forward == sides[j].forward ? 1 : 0];
+  side_.assign(panel.empty() ? 0 : static_cast<std::size_t>(panel.back()) + 1, 0.0);
+  const auto spread = [&](std::size_t from) {
+    std::vector<std::size_t> next = {from};
+    side_[from] = 1;
+    while (!next.empty()) {
+      const std::size_t p = next.back();
+      next.pop_back();
+      for (const auto& [pair, edges] : sewn) {
+        const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+        if ((a != p && b != p) || side_[a == p ? b : a] != 0) continue;
+        side_[a == p ? b : a] = edges[0] >= edges[1] ? side_[p] : -side_[p];
+        next.push_back(a == p ? b : a);
+      }
+    }
+  };
+  for (std::size_t p = 0; p < side_.size(); ++p)
+    if (side_[p] == 0) spread(p);
+  for (const auto& [pair, edges] : sewn) {
+    const bool alike = side_[static_cast<std::size_t>(pair.first)] == side_[static_cast<std::size_t>(pair.second)];
+    if (edges[alike ? 1 : 0] > 0) twisted_.push_back(pair);
+  }
+}
+
+void ClothPatches::divide(const Points2& rest, int begin, int end, int panel) {
   if (end - begin <= kPatchSize) {
-    patches_.push_back({begin, end, {}, Vec3::Zero(), 0});
+    patches_.push_back({begin, end, {}, Vec3::Zero(), 0, panel});
     return;
   }
   const auto first = order_.begin() + begin, last = order_.begin() + end;
@@ -41,8 +90,8 @@ void ClothPatches::divide(const Points2& rest, int begin, int end) {
   std::sort(first, last,
             [&](int f, int g) { return rest(f, axis) != rest(g, axis) ? rest(f, axis) < rest(g, axis) : f < g; });
   const int middle = begin + (end - begin) / 2;
-  divide(rest, begin, middle);
-  divide(rest, middle, end);
+  divide(rest, begin, middle, panel);
+  divide(rest, middle, end, panel);
 }
 
 void ClothPatches::find_neighbours() {
@@ -56,6 +105,10 @@ void ClothPatches::find_neighbours() {
   neighbours_.resize(patches_.size());
   for (std::size_t i = 0; i < patch_of_node.size(); ++i)
     for (std::size_t j = i + 1; j < patch_of_node.size() && patch_of_node[j].first == patch_of_node[i].first; ++j) {
+      const int a = patch_of_node[i].second, b = patch_of_node[j].second;
+      const auto panels =
+          std::minmax(patches_[static_cast<std::size_t>(a)].panel, patches_[static_cast<std::size_t>(b)].panel);
+      if (std::binary_search(twisted_.begin(), twisted_.end(), std::pair<int, int>(panels))) continue;
       neighbours_[static_cast<std::size_t>(patch_of_node[i].second)].push_back(patch_of_node[j].second);
       neighbours_[static_cast<std::size_t>(patch_of_node[j].second)].push_back(patch_of_node[i].second);
     }
@@ -94,7 +147,8 @@ void ClothPatches::measure(const Points3& nodes) {
 
 bool ClothPatches::smooth(const Patch& a, const Patch& b) const {
   if (a.spread + b.spread >= 2 * kSmooth) return false;
-  const double between = std::acos(std::clamp(a.axis.dot(b.axis), -1.0, 1.0));
+  const double alike = side_[static_cast<std::size_t>(a.panel)] * side_[static_cast<std::size_t>(b.panel)];
+  const double between = std::acos(std::clamp(alike * a.axis.dot(b.axis), -1.0, 1.0));
   return std::max({a.spread, b.spread, 0.5 * (between + a.spread + b.spread)}) < kSmooth;
 }
 

@@ -32,9 +32,11 @@ class ClothPatches {
     TriangleBox box;
     Vec3 axis;
     double spread;  // largest angle of a normal from the axis, rad
+    int panel;      // in the order of `triangles`
   };
 
-  void divide(const Points2& rest, int begin, int end);
+  void divide(const Points2& rest, int begin, int end, int panel);
+  void find_sides(const std::vector<int>& panel);
   void find_neighbours();
   void measure(const Points3& nodes);
   bool smooth(const Patch& a, const Patch& b) const;
@@ -44,6 +46,8 @@ class ClothPatches {
   const Triangles triangles_;
   std::vector<int> order_;  // triangles, patch by patch
   std::vector<Patch> patches_;
+  std::vector<double> side_;                       // per panel: 1, or -1 where its triangles face the other way
+  std::vector<std::pair<int, int>> twisted_;       // panels, ascending, sewn so that no side suits them both
   std::vector<std::vector<int>> neighbours_;       // per patch, ascending: patches with a common node
   std::vector<TriangleBox> boxes_;                 // per triangle
   std::vector<std::pair<int, int>> pairs_, near_;  // of patches, of triangles

@@ -87,11 +87,17 @@ void Contact::add_hessian(const Points3& nodes, Curvature curvature, BlockHessia
   }
 }
 
+void Contact::hold_friction(const FrictionState& state) {
+  load_ = state.load, anchor_ = state.anchor, normal_ = state.normal;
+  frozen_ = held_ = true;
+}
+
 void Contact::freeze_friction(const Points3& nodes) {
   freeze_friction(nodes, Points3::Zero(nodes.rows(), 3), 0.0);
 }
 
 void Contact::freeze_friction(const Points3& nodes, const Points3& pull, double reach) {
+  if (held_) return;
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
     const Vec3 p = nodes.row(i);
     Vec3 normal;

@@ -11,6 +11,7 @@
 #include "engine/geometry/distance_field.h"
 #include "engine/sim/cloth.h"
 #include "engine/sim/energy_hessian.h"
+#include "engine/sim/friction_state.h"
 
 namespace toile {
 
@@ -49,6 +50,11 @@ class Contact {
   // to slide before its contact forces have built up.
   void freeze_friction(const Points3& nodes, const Points3& pull, double reach);
 
+  // Friction as the last freeze left it.
+  FrictionState friction() const { return {load_, anchor_, normal_}; }
+  // Friction as given, for good: freezes change nothing any more.
+  void hold_friction(const FrictionState& state);
+
   // Diagonal of an upper bound of the contact's Hessian at the nodes of the last evaluation, N/m.
   void stiffness_diagonal(Eigen::VectorXd& diagonal) const;
 
@@ -72,10 +78,10 @@ class Contact {
   std::vector<bool> known_;         // #N
   std::vector<std::int32_t> hint_;  // #N, of the field
 
-  Eigen::VectorXd taken_up_;  // #N, depth whose force is applied without any depth; only with multipliers, m
-  bool frozen_ = false;
-  Eigen::VectorXd load_;     // #N, mu N of the last freeze, N
-  Points3 anchor_, normal_;  // #N x 3
+  Eigen::VectorXd taken_up_;            // #N, depth whose force is applied without any depth; only with multipliers, m
+  bool frozen_ = false, held_ = false;  // held: for good
+  Eigen::VectorXd load_;                // #N, mu N of the last freeze, N
+  Points3 anchor_, normal_;             // #N x 3
 };
 
 }  // namespace toile

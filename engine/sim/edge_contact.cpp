@@ -43,11 +43,13 @@ bool EdgeContact::look(const Points3& nodes) {
   return count() > before;
 }
 
-double EdgeContact::deepest(const Points3& nodes) {
-  double most = 0;
+std::vector<Vec3> EdgeContact::inside(const Points3& nodes) {
+  std::vector<Vec3> middles;
   Vec3 normal;
-  for (int k : kept_) most = std::max(most, depth(edge(k), nodes, normal));
-  return most;
+  for (int k : kept_)
+    if (depth(edge(k), nodes, normal) > 0)
+      middles.push_back(0.5 * (nodes.row(edge(k).a) + nodes.row(edge(k).b)).transpose());
+  return middles;
 }
 
 double EdgeContact::energy_gradient(const Points3& nodes, Points3& gradient) {

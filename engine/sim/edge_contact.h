@@ -18,8 +18,8 @@ class EdgeContact {
   // Takes up the edges whose middles lie inside at `nodes` (#N x 3). True if there are new ones: the energy changes,
   // evaluate again.
   bool look(const Points3& nodes);
-  // Depth of the deepest middle at `nodes`, m, of the edges taken up.
-  double deepest(const Points3& nodes);
+  // Middles, at `nodes`, of the edges taken up that lie inside.
+  std::vector<Vec3> inside(const Points3& nodes);
   int count() const { return static_cast<int>(kept_.size()); }  // of edges taken up
 
   // Adds the gradient (#N x 3, N) and returns the energy, J.

@@ -10,9 +10,12 @@
 namespace toile {
 namespace {
 
-constexpr double kFloor = 0.1;      // share of the thickness below which the repulsion grows no stiffer
-constexpr double kBlunt = 0.04;     // squared sine of the angle between two edges below which their pair fades
-constexpr double kLeastGap = 1e-9;  // m: closer features have no direction between them
+constexpr double kFloor = 0.1;         // share of the thickness below which the repulsion grows no stiffer
+constexpr double kBlunt = 0.04;        // squared sine of the angle between two edges below which their pair fades
+constexpr double kMostSwelling = 0.5;  // of the thickness, on either side: pairs are found from further away
+constexpr double kSlack = 0.3;         // of the thickness above the floor in which swelling stays: it must come to rest
+constexpr double kLeastWeight = 0.05;  // of a node in a closest point, for it to count as pressed
+constexpr double kLeastGap = 1e-9;     // m: closer features have no direction between them
 
 struct Profile {
   double energy = 0.0, slope = 0.0, curvature = 0.0;  // over k A
@@ -66,8 +69,8 @@ bool LayerPairs::beyond(const Moving& pair, const Points3& nodes) {
   std::array<double, 4> along;
   for (std::size_t k = 0; k < 4; ++k) along[k] = nodes.row(pair.node[k]).dot(pair.normal);
   if (pair.kind == LayerPair::Kind::VertexTriangle)
-    return along[0] - std::max({along[1], along[2], along[3]}) >= pair.thickness;
-  return std::min(along[0], along[1]) - std::max(along[2], along[3]) >= pair.thickness;
+    return along[0] - std::max({along[1], along[2], along[3]}) >= pair.thickness + pair.taken_up;
+  return std::min(along[0], along[1]) - std::max(along[2], along[3]) >= pair.thickness + pair.taken_up;
 }
 
 LayerPairs::Closest LayerPairs::closest(const Moving& pair, const Points3& nodes) {
@@ -99,7 +102,8 @@ double LayerPairs::share(const Moving& pair, const Points3& nodes) {
 void LayerPairs::hold(const Points3& nodes) {
   for (const Moving& pair : moving_) {
     const Closest c = closest(pair, nodes);
-    held_.push_back({pair.node, c.weight, c.normal, share(pair, nodes) * pair.stiffness, pair.thickness});
+    held_.push_back(
+        {pair.node, c.weight, c.normal, share(pair, nodes) * pair.stiffness, pair.thickness, pair.taken_up});
   }
   moving_.clear();
 }
@@ -109,7 +113,8 @@ double LayerPairs::energy_gradient(const Points3& nodes, Points3& gradient) cons
   for (const Moving& pair : moving_)
     if (!beyond(pair, nodes)) total += add_moving(pair, nodes, gradient);
   for (const Held& pair : held_) {
-    const Profile p = repulsion(pair.normal.dot(difference(pair.node, pair.weight, nodes)), pair.thickness);
+    const Profile p =
+        repulsion(pair.normal.dot(difference(pair.node, pair.weight, nodes)) - pair.taken_up, pair.thickness);
     total += pair.stiffness * p.energy;
     add_force(pair.node, pair.weight, pair.stiffness * p.slope * pair.normal, gradient);
   }
@@ -121,9 +126,33 @@ double LayerPairs::energy_gradient(const Points3& nodes, Points3& gradient) cons
   return total;
 }
 
+void LayerPairs::swell(const Points3& nodes, Points3& swelling) const {
+  struct Narrowest {
+    double lack = 0, most = 0;  // m
+    Vec3 side = Vec3::Zero();
+  };
+  std::vector<Narrowest> narrowest(static_cast<std::size_t>(nodes.rows()));
+  for (const Moving& pair : moving_) {
+    if (beyond(pair, nodes)) continue;
+    const Closest c = closest(pair, nodes);
+    double lack = kFloor * pair.thickness - c.gap;
+    if (lack < 0) lack = std::min(0.0, lack + kSlack * pair.thickness);
+    for (std::size_t k = 0; k < 4; ++k) {
+      Narrowest& at = narrowest[static_cast<std::size_t>(pair.node[k])];
+      if (std::abs(c.weight[k]) < kLeastWeight || (at.most > 0 && lack <= at.lack)) continue;
+      at = {lack, kMostSwelling * pair.thickness, c.weight[k] > 0 ? c.normal : Vec3(-c.normal)};
+    }
+  }
+  for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
+    const Narrowest& at = narrowest[static_cast<std::size_t>(i)];
+    const double so_far = std::max(0.0, swelling.row(i).dot(at.side));
+    swelling.row(i) = std::clamp(so_far + 0.5 * at.lack, 0.0, at.most) * at.side.transpose();
+  }
+}
+
 double LayerPairs::add_moving(const Moving& pair, const Points3& nodes, Points3& gradient) {
   const Closest c = closest(pair, nodes);
-  const Profile p = repulsion(c.gap, pair.thickness);
+  const Profile p = repulsion(c.gap - pair.taken_up, pair.thickness);
   if (p.slope == 0) return 0;
   double kept = 1;
   if (pair.kind == LayerPair::Kind::EdgeEdge) {
@@ -149,12 +178,13 @@ void LayerPairs::visit_stiff(const Points3& nodes, Visit visit) const {
     if (beyond(pair, nodes)) continue;
     const Closest c = closest(pair, nodes);
     visit(pair.node, c.weight, c.normal,
-          share(pair, nodes) * pair.stiffness * repulsion(c.gap, pair.thickness).curvature);
+          share(pair, nodes) * pair.stiffness * repulsion(c.gap - pair.taken_up, pair.thickness).curvature);
   }
   for (const Held& pair : held_)
     visit(pair.node, pair.weight, pair.normal,
           pair.stiffness *
-              repulsion(pair.normal.dot(difference(pair.node, pair.weight, nodes)), pair.thickness).curvature);
+              repulsion(pair.normal.dot(difference(pair.node, pair.weight, nodes)) - pair.taken_up, pair.thickness)
+                  .curvature);
   for (const LayerPush& push : pushes_)
     if (push.normal.dot(difference(push.node, push.weight, nodes)) < push.offset)
       visit(push.node, push.weight, push.normal, push.stiffness);

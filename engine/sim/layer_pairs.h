@@ -5,8 +5,10 @@
 // with g the distance of their closest points wherever the nodes have gone, so that force does not jump where a closest
 // point slides over a rim, nor when pairs are looked for anew. Closest points of parallel edges do jump: m fades the
 // pair out towards parallel [Li2020]; the edges' ends have pairs of their own.
-// Pushes draw pierced features along a fixed direction: E = k A min(0, n . (difference of points) - offset)^2 / 2.
-// SI units.
+// Layers that are pressed together harder than the repulsion grows down to its floor swell, round by round, by what
+// they lack to the floor: then they carry any pressure at that gap. Swelling is a vector per node, towards the side
+// from which it is pressed; a pair is taken to be nearer by that of its closest points. Pushes draw pierced features
+// along a fixed direction: E = k A min(0, n . (difference of points) - offset)^2 / 2. SI units.
 #pragma once
 
 #include "engine/sim/energy_hessian.h"
@@ -20,6 +22,7 @@ struct LayerPair {
   Vec3 normal;              // unit, from the second feature to the first when the pair was found
   double stiffness = 0.0;   // k A, N/m
   double thickness = 0.0;   // d, m
+  double taken_up = 0.0;    // by which the pair is taken to be nearer than it is, m
 };
 
 struct LayerPush {
@@ -40,6 +43,10 @@ class LayerPairs {
 
   // Adds the gradient (#N x 3, N) and returns the energy, J.
   double energy_gradient(const Points3& nodes, Points3& gradient) const;
+  // Lets nodes swell by half of what the narrowest of their pairs lacks to the floor at `nodes`, or shrink by what it
+  // exceeds it (#N x 3 each, m). Counts with the pairs added from then on.
+  void swell(const Points3& nodes, Points3& swelling) const;
+
   // Adds the second derivatives but for those of the directions; never negative.
   void add_hessian(const Points3& nodes, BlockHessian& hessian) const;
   // Adds the lower triangle of the stiffness along the pairs' directions, N/m, as if it held for every coordinate.
@@ -53,7 +60,7 @@ class LayerPairs {
     std::array<int, 4> node;
     std::array<double, 4> weight;
     Vec3 normal;
-    double stiffness, thickness;
+    double stiffness, thickness, taken_up;
   };
   // Closest points of a pair: weights of its nodes in their difference, its direction and length.
   struct Closest {

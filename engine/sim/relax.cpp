@@ -19,7 +19,7 @@ constexpr double kContactShare = 0.4, kHoldShare = 0.3, kWeightLength = 0.3, kLa
 constexpr double kStartReach = 0.001;
 
 constexpr double kCalmShare = 0.98;  // of the nodes by which settling is judged
-constexpr int kPatience = 6;         // rounds in which layers that cross may come apart when all else has settled
+constexpr int kPatience = 10;        // rounds in which a knot of layers may come to rest when all else has settled
 
 // DrapeEnergy::residual of the nodes with the least forces.
 double calm_residual(const DrapeEnergy& energy, const Points3& gradient) {
@@ -88,6 +88,7 @@ class Relaxation {
       const bool whole = run_round(minimiser, evaluate, progress);
       if (energy_.contact()) energy_.contact()->freeze_friction(minimiser.nodes());
       if (energy_.edge_contact) energy_.edge_contact->look(minimiser.nodes());
+      if (energy_.cloth_contact) energy_.cloth_contact->swell(minimiser.nodes());
       if (energy_.cloth_contact) energy_.cloth_contact->refresh(minimiser.nodes());
       minimiser.refresh(evaluate);
       helper_.dismiss();
@@ -103,7 +104,8 @@ class Relaxation {
  private:
   bool done() const {
     if (result_.converged || result_.stalled) return true;
-    return result_.settled && calm_residual_ < options_.stop_settled && (!knotted_ || calm_rounds_ > kPatience);
+    const bool calm = calm_rounds_ > 0 && calm_residual_ < options_.stop_settled;
+    return calm && ((result_.settled && !knotted_) || calm_rounds_ > kPatience);
   }
 
   // Iterations with friction as it stands; false if the residual was reached before the round was over.
@@ -152,9 +154,10 @@ class Relaxation {
       result_.last_move = std::max(result_.last_move, (means[k] - watched_[k]).norm());
     watched_ = means;
     calm_residual_ = calm_residual(energy_, minimiser.gradient());
-    result_.settled = result_.iterations >= options_.least_iterations && calm_residual_ < options_.settled_residual &&
+    const bool calm = result_.iterations >= options_.least_iterations && calm_residual_ < options_.settled_residual &&
                       result_.last_move < options_.settled_move;
-    calm_rounds_ += result_.settled;
+    calm_rounds_ += calm;
+    result_.settled = calm && result_.residual < options_.settled_everywhere;
     knotted_ = energy_.cloth_contact && energy_.cloth_contact->piercings() > 0;
   }
 

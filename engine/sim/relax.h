@@ -19,6 +19,7 @@ struct RelaxOptions {
   double stop_residual = 0.3;  // of a mean node weight (DrapeEnergy::residual), with friction just frozen
   // Of all nodes but the worst fiftieth: a knot of a few crossing layers may push for ever without moving anything.
   double settled_residual = 2.6;          // below it and without movement the drape counts as settled
+  double settled_everywhere = 3.0;        // the same of all nodes
   double settled_move = 0.0005;           // m a watched line may move over a round and still count as settled
   double stop_settled = 0.0;              // the same residual below which a settled drape is left at that; 0: never
   int least_iterations = 300;             // before it may count as settled: below, even placement is not settled

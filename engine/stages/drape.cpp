@@ -11,6 +11,7 @@
 #include "engine/sim/relax.h"
 #include "engine/sim/sewing.h"
 #include "engine/stages/arrange_panels.h"
+#include "engine/stages/drape_held.h"
 #include "engine/stages/drape_series.h"
 #include "engine/stages/find_node_mirror.h"
 #include "engine/stages/prepared_body.h"
@@ -34,9 +35,8 @@ constexpr int kLeastFromWorn = 150;  // iterations before a garment that was wor
 constexpr double kTangledShare = 0.1;  // of piercings in the triangles: worn and transported garments have under 0.01
 
 // Contact of a garment that is far too small is made stiffer until no node, and no middle of an edge, is that deep in
-// the body, m. Firmer contact takes several times the iterations: single nodes a millimetre deep, as of leggings two
-// sizes too small, are let be.
-constexpr double kDeep = 0.002, kDeepEdge = 0.003, kFirmer = 4;
+// the body, m.
+constexpr double kDeep = 0.001, kDeepEdge = 0.003, kFirmer = 4;
 constexpr int kMostFirmings = 2;
 
 constexpr double kStartReach = 0.001;  // m, within which friction at the start takes nodes as touching the body
@@ -61,6 +61,12 @@ void check_options(const DrapeOptions& o) {
   check(o.shear_limit_deg >= 0 && o.shear_limit_deg <= 45, "shear_limit_deg", "0 to 45");
   check(o.lift >= 0 && o.lift <= 0.1, "lift", "0 to 0.1 m");
   check(o.first_rung >= 0 && o.first_rung <= kLastRung, "first_rung", "0 or 1");
+}
+
+void check_start(const PatternMesh& mesh, const Drape& start) {
+  if (start.nodes.rows() != mesh.node_count || !start.nodes.allFinite())
+    throw Error(ErrorCode::GarmentInvalid, "garment",
+                "the given drape does not have one finite position for every node of the sewn garment");
 }
 
 class Draper {
@@ -109,6 +115,9 @@ class Draper {
       if (finding.name == "not_finite") throw Error(ErrorCode::DrapeFailed, "garment", finding.message);
     return result_;
   }
+
+  void hold(const HeldDrape& held) { held_ = &held; }  // must outlive this
+  const HeldDrape& end() const { return end_; }
 
  private:
   // Which panel dresses what, told by `vertices` (#V x 3), and the field that suits.
@@ -200,6 +209,7 @@ class Draper {
     const std::vector<int>& nodes = waist_;
     double height = 0;
     for (int n : nodes) height += start(n, 1) / static_cast<double>(nodes.size());
+    if (held_) height = held_->hold_height;
     for (int n : nodes) holds_.push_back({n, height, options_.contact_stiffness * cloth_.node_area[n]});
     result_.diagnostics.hold_height = height;
   }
@@ -253,6 +263,7 @@ class Draper {
     contact_options.stiffness = stiffness;
     contact_options.friction = options_.friction;
     Contact contact(cloth_, *field_, contact_options);
+    if (held_) contact.hold_friction(held_->friction);
     EdgeContact edges(cloth_, *field_, contact_options);
     DrapeEnergy energy(cloth_, &contact, options_.gravity);
     energy.edge_contact = &edges;
@@ -282,6 +293,7 @@ class Draper {
     d.evaluations += relaxed.evaluations;
     d.energy = relaxed.energy;
     d.stalled = relaxed.stalled;
+    end_ = {contact.friction(), d.hold_height};
     result_.quality.residual = relaxed.residual;
     result_.quality.settling_move = relaxed.last_move;
     const bool at_rest = relaxed.residual < DrapeOptions().stop_residual;  // whatever was asked for
@@ -289,13 +301,20 @@ class Draper {
                            : relaxed.converged || relaxed.settled ? Rest::Settled
                                                                   : Rest::NotAtRest;
     if (options_.solver == SolverKind::Newton) return refine(energy, relaxed.nodes), false;
-    return presses_deep(contact.distances()) || (pins_.empty() && edges.deepest(relaxed.nodes) > kDeepEdge);
+    return presses_deep(contact.distances(), edges);
   }
 
-  // Pinned nodes lie where they are wanted.
-  bool presses_deep(Eigen::VectorXd distances) const {
+  // Whether nodes or middles of edges lie deep in the body itself: within toes and fingers the field is flatter. Pinned
+  // nodes lie where they are wanted.
+  bool presses_deep(Eigen::VectorXd distances, EdgeContact& edges) const {
     for (const Pin& pin : pins_) distances[pin.node] = 0;
-    return distances.minCoeff() < -kDeep;
+    const Points3& nodes = result_.drape.nodes;
+    for (Eigen::Index i = 0; i < distances.size(); ++i)
+      if (distances[i] < 0 && depth_inside(field_->tree(), nodes.row(i)) > kDeep) return true;
+    if (!pins_.empty()) return false;
+    const std::vector<Vec3> middles = edges.inside(nodes);
+    return std::any_of(middles.begin(), middles.end(),
+                       [&](const Vec3& p) { return depth_inside(field_->tree(), p) > kDeepEdge; });
   }
 
   // To the very minimum, contacts and friction as they stand in `energy`.
@@ -349,7 +368,9 @@ class Draper {
   std::vector<Hold> holds_;
   std::vector<Pin> pins_;
   std::optional<NodeMirror> mirror_;  // where body and garment are the same on both sides
-  bool worn_ = false;                 // the garment is judged where it hangs on this body, not where it was placed
+  const HeldDrape* held_ = nullptr;   // null: friction is frozen anew in rounds
+  HeldDrape end_;
+  bool worn_ = false;  // the garment is judged where it hangs on this body, not where it was placed
   DrapeResult result_;
 };
 
@@ -360,6 +381,30 @@ DrapeResult drape(const Pattern& pattern, const PatternMesh& mesh, const Body& b
   check_options(options);
   PreparedBody prepared(body);
   return Draper(pattern, mesh, prepared, options, progress).from_flat();
+}
+
+DrapeResult drape_to_hold(const Pattern& pattern, const PatternMesh& mesh, const Body& body,
+                          const DrapeOptions& options, HeldDrape& end, Progress* progress) {
+  check_options(options);
+  PreparedBody prepared(body);
+  Draper draper(pattern, mesh, prepared, options, progress);
+  DrapeResult result = draper.from_flat();
+  end = draper.end();
+  return result;
+}
+
+DrapeResult drape_held(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const Drape& start,
+                       const HeldDrape& held, const DrapeOptions& options, Progress* progress) {
+  check_options(options);
+  check_start(mesh, start);
+  const FrictionState& friction = held.friction;
+  for (const Eigen::Index rows : {friction.load.size(), friction.anchor.rows(), friction.normal.rows()})
+    if (rows != mesh.node_count)
+      throw Error(ErrorCode::GarmentInvalid, "garment", "the given friction does not have a row for every node");
+  PreparedBody prepared(body);
+  Draper draper(pattern, mesh, prepared, options, progress);
+  draper.hold(held);
+  return draper.from_start(start.nodes);
 }
 
 DrapeResult drape_from(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const Drape& start,
@@ -373,9 +418,7 @@ DrapeSeries::~DrapeSeries() = default;
 DrapeResult DrapeSeries::drape_from(const Pattern& pattern, const PatternMesh& mesh, const Drape& start,
                                     const DrapeOptions& options, Progress* progress) {
   check_options(options);
-  if (start.nodes.rows() != mesh.node_count || !start.nodes.allFinite())
-    throw Error(ErrorCode::GarmentInvalid, "garment",
-                "the given drape does not have one finite position for every node of the sewn garment");
+  check_start(mesh, start);
   return Draper(pattern, mesh, *body_, options, progress).from_start(start.nodes);
 }
 

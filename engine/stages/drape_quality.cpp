@@ -38,11 +38,6 @@ void measure_strain(const PatternMesh& mesh, const Drape& drape, DrapeQuality& q
   quality.shear = percentiles(std::move(shear));
 }
 
-// Depth of a point inside the surface, 0 outside. Most points are outside by more than `enough`.
-double depth_inside(const SurfaceTree& surface, const Vec3& p) {
-  return surface.winding_number(p) > 0 ? surface.closest_point(p).distance() : 0.0;
-}
-
 void measure_penetration(const PatternMesh& mesh, const SurfaceTree& surface, const Drape& drape,
                          DrapeQuality& quality) {
   for (Eigen::Index i = 0; i < drape.nodes.rows(); ++i) {
@@ -82,6 +77,10 @@ bool triangles_cross(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t)
 }
 
 }  // namespace
+
+double depth_inside(const SurfaceTree& surface, const Vec3& p) {
+  return surface.winding_number(p) > 0 ? surface.closest_point(p).distance() : 0.0;
+}
 
 std::string_view rest_name(Rest rest) {
   switch (rest) {

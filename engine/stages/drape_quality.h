@@ -40,6 +40,9 @@ struct DrapeQuality {
 // Everything but `rest`, `residual` and `settling_move`, which the solver knows. `surface` is that of the body.
 DrapeQuality measure_drape(const PatternMesh& mesh, const SurfaceTree& surface, const Drape& drape);
 
+// Depth of a point inside the surface, m, 0 outside.
+double depth_inside(const SurfaceTree& surface, const Vec3& p);
+
 // Pairs of triangles without a common node that cross, as numbers of `triangles`, ascending; at most `most`.
 std::vector<std::pair<int, int>> crossing_pairs(const Points3& nodes, const Triangles& triangles, int most = 100000);
 

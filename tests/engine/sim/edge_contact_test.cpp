@@ -39,7 +39,10 @@ TEST(EdgeContact, PushesTheEdgeOutOfTheFinger) {
   PiercedSheet s;
   Points3 nodes = s.nodes(0.076, 0.052), gradient = Points3::Zero(nodes.rows(), 3);
   ASSERT_TRUE(s.contact.look(nodes));
-  EXPECT_NEAR(s.contact.deepest(nodes), 0.008 - std::hypot(0.001, 0.002), 1e-9);
+  const std::vector<Vec3> inside = s.contact.inside(nodes);
+  ASSERT_EQ(inside.size(), 1U);
+  EXPECT_NEAR(inside.front().norm(), std::hypot(0.001, 0.002), 1e-9);
+  EXPECT_TRUE(s.contact.inside(s.nodes(0.3, 0.3)).empty());
   const double energy = s.contact.energy_gradient(nodes, gradient);
   EXPECT_GT(energy, 0);
   EXPECT_LT(s.contact.energy_gradient(nodes - 1e-3 / gradient.norm() * gradient, gradient), energy);

@@ -110,5 +110,39 @@ TEST(LayerPairs, HeldPairsKeepTheForceAndTheirHessianIsExact) {
   EXPECT_NEAR(diagonal, expected, 1e-9 * expected);
 }
 
+// A vertex drawn onto a triangle by three times what the repulsion can grow to: every round the gap at which both
+// balance, then swelling.
+TEST(LayerPairs, LayersPressedHarderThanTheRepulsionSwellUntilTheyCarryItAndShrinkAgain) {
+  Points3 swelling = Points3::Zero(4, 3);
+  const auto balance = [&](double load, int rounds) {
+    double gap = 0;
+    for (int round = 0; round < rounds; ++round) {
+      LayerPair pair{LayerPair::Kind::VertexTriangle, {0, 1, 2, 3}, Vec3::UnitZ()};
+      pair.stiffness = kStiffness;
+      pair.thickness = kThickness;
+      pair.taken_up = swelling(0, 2) - swelling.bottomRows(3).col(2).mean();
+      LayerPairs pairs;
+      pairs.add(pair, vertex_above(0.006, 0.006, 0.001));
+      double low = 0, high = 3 * kThickness;
+      for (int i = 0; i < 50; ++i) {
+        gap = 0.5 * (low + high);
+        Points3 gradient(4, 3);
+        energy_of(pairs)(vertex_above(0.006, 0.006, std::max(gap, 1e-7)), gradient);
+        (-gradient(0, 2) > load ? low : high) = gap;
+      }
+      pairs.swell(vertex_above(0.006, 0.006, std::max(gap, 1e-7)), swelling);
+    }
+    return gap;
+  };
+  const double hardest = 19 * kStiffness * kThickness;  // at no gap
+  EXPECT_LT(balance(3 * hardest, 1), 1e-6);
+  const double gap = balance(3 * hardest, 20);
+  EXPECT_GT(gap, 0.09 * kThickness);
+  EXPECT_LT(gap, 0.45 * kThickness);
+  EXPECT_GT(swelling(0, 2), 0.1 * kThickness);
+  balance(0.01 * hardest, 40);
+  EXPECT_LT(swelling(0, 2), 0.01 * kThickness);
+}
+
 }  // namespace
 }  // namespace toile
