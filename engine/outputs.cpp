@@ -119,10 +119,16 @@ class AlterationFiles {
   }
 
   std::vector<OutputFile> make(bool at_once) {
-    if (at_once) draw_at_once();
-    make_patterns();
-    make_ticket();
-    make_meshes();
+    const auto make_others = [this] {
+      make_patterns();
+      make_ticket();
+      make_meshes();
+    };
+    if (at_once)  // what takes long, in two about equal parts
+      side_by_side(
+          true, [this] { draw_fits_before(); }, [&] { draw_fits_after(), make_others(); });
+    else
+      make_others();
     make_pictures();
     files_.make("report.html", kHtml, [this] { return report(); });
     return files_.finish(result());
@@ -133,7 +139,9 @@ class AlterationFiles {
   void make_ticket();
   void make_meshes();
   void make_pictures();
-  void draw_at_once();
+  void draw_fits_before();
+  void draw_fits_after();
+  bool shown(const char* name) const { return files_.wanted(name) || files_.wanted("report.html"); }
   Bytes report();
   Record result() const;
   Bytes picture(const Body& body, const PatternMesh& mesh, const DrapeResult& drape, const FittingMap& fit,
@@ -240,24 +248,19 @@ void AlterationFiles::make_pictures() {
   }
 }
 
-// What is asked for of the pictures that take long, by two threads.
-void AlterationFiles::draw_at_once() {
-  const auto draw = [this](const char* name, OnDemand<Bytes>& picture) {
-    const bool wanted = files_.wanted(name) || files_.wanted("report.html");
-    if (wanted) picture.value();
-    return wanted;
-  };
-  side_by_side(
-      true,
-      [&] {
-        draw("fit_reference.png", fit_reference_);
-        return draw("fit_before.png", fit_before_);
-      },
-      [&] {
-        if (!fits_.after) return draw("fit_target.png", fit_target_);
-        if (files_.named("fit_target.png")) fit_target_.value();
-        return draw("fit_after.png", fit_after_);
-      });
+// The pictures of the fit that a file asked for shows.
+void AlterationFiles::draw_fits_before() {
+  if (shown("fit_reference.png")) fit_reference_.value();
+  if (shown("fit_before.png")) fit_before_.value();
+}
+
+void AlterationFiles::draw_fits_after() {
+  if (!fits_.after) {
+    if (shown("fit_target.png")) fit_target_.value();
+    return;
+  }
+  if (files_.named("fit_target.png")) fit_target_.value();
+  if (shown("fit_after.png")) fit_after_.value();
 }
 
 Bytes AlterationFiles::report() {

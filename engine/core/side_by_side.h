@@ -99,4 +99,12 @@ auto side_by_side(bool at_once, First&& first, Second&& second)
   return {std::move(*there.value), std::move(*here.value)};
 }
 
+// The same for work that returns nothing.
+template <class First, class Second>
+requires std::is_void_v<std::invoke_result_t<First&>> && std::is_void_v<std::invoke_result_t<Second&>>
+void side_by_side(bool at_once, First&& first, Second&& second) {
+  side_by_side(
+      at_once, [&] { return first(), true; }, [&] { return second(), true; });
+}
+
 }  // namespace toile

@@ -23,7 +23,6 @@ void work_off(std::size_t count, Work&& work) {
         failed[i] = std::current_exception();
       }
     }
-    return true;
   };
   const bool at_once = count > 1 && lent_threads() && lent_threads()->any_idle();
   if (at_once)

@@ -46,11 +46,9 @@ TEST(SpareThreads, AreBusyWhileTwoWorkSideBySideAndIdleAgainWhenOneHasEnded) {
       [&] {
         lent = lent_threads() == &threads;
         busy = !threads.any_idle();
-        return 0;
       },
       [&] {
         while (!threads.any_idle()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        return 0;
       });
   EXPECT_TRUE(lent);
   EXPECT_TRUE(busy);

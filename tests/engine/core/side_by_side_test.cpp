@@ -43,7 +43,6 @@ TEST_P(SideBySide, CountsTheProcessorTimeOfBothForTheCaller) {
   const auto spend = [] {
     const double start = work_cpu_seconds();
     while (work_cpu_seconds() - start < 0.02) continue;
-    return 0;
   };
   const double before = work_cpu_seconds();
   side_by_side(GetParam(), spend, spend);
