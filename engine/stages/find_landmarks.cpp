@@ -2,6 +2,7 @@
 #include "engine/stages/find_landmarks.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/stages/find_shoulder.h"
 #include "engine/stages/measure_arm.h"
@@ -15,7 +16,8 @@ constexpr double kBustDeep = 0.085, kBustHigh = 0.012;  // bust points are sough
 constexpr double kBustNear = 0.025, kBustFar = 0.09;    // distance from the mid-plane
 constexpr double kBustSide = 0.05;                      // and where there is no foremost point
 constexpr double kBustCrest = 0.0015;                   // the profile must fall back by this under a crest
-constexpr double kBustCap = 0.0001;                     // what lies within this of the crest counts as crest
+constexpr double kBustCap = 0.0001;                     // what lies within this of the crest counts as crest,
+constexpr double kSureCap = 0.0010;                     // and this besides where it surely is one
 constexpr double kBustStep = 0.001;                     // m
 // Where a chest has no foremost point, two estimates of its bust level share: under the armpit by a part of the way to
 // the neck, and under the place where arm and trunk would meet if the gap between them went on closing as it does
@@ -103,14 +105,17 @@ class Finder {
       fall = std::max(fall, foremost - z);
     }
     if (profile.empty()) return {};
-    return {middle_of_crest(profile, foremost), std::clamp(fall / (kBustCrest * h_) - 0.5, 0.0, 1.0)};
+    const double share = std::clamp(fall / (kBustCrest * h_) - 0.5, 0.0, 1.0);
+    return {middle_of_crest(profile, foremost - (kBustCap + kSureCap * std::pow(share, 3)) * h_), share};
   }
 
-  // A blunt crest is uncertain by more than its cap is high: the middle of the cap is surer than its foremost point.
-  double middle_of_crest(const std::vector<Vec2>& profile, double foremost) const {
+  // A blunt crest is uncertain by more than its cap is high: the middle of the cap is surer than its foremost point. A
+  // breast's cap is taken so high that a nipple, which models have and maps and scans round off, does not decide; a
+  // chest that hardly falls back has no such cap.
+  static double middle_of_crest(const std::vector<Vec2>& profile, double over) {
     double sum = 0.0, weight = 0.0;
     for (const Vec2& p : profile) {
-      const double w = std::max(0.0, p.y() - (foremost - kBustCap * h_));
+      const double w = std::max(0.0, p.y() - over);
       sum += w * p.x(), weight += w;
     }
     return sum / weight;

@@ -203,6 +203,12 @@ TEST(SlowRegisterBodies, KeepsTheGirthsOfTheTarget) {
   expect_girths(kMean, test::scan_case("scan_b"));
 }
 
+// A nipple that is modelled on one body alone does not move the level of the bust.
+TEST(SlowRegisterBodies, KeepsTheGirthsAcrossFamilies) {
+  TOILE_REQUIRE_SHARED_DATA();
+  expect_girths(kMean, test::shuffled_case(kWoman));
+}
+
 // Thighs that press on each other for centimetres under the crotch hide each other's skin.
 TEST(SlowRegisterBodies, KeepsTheGirthsWhereThighsTouch) {
   TOILE_REQUIRE_SHARED_DATA();
