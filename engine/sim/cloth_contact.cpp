@@ -133,7 +133,7 @@ bool ClothContact::refresh(const Points3& nodes) {
   }
   for (const PiercedTriangle& piercing : piercings_) add_push(nodes, piercing);
   if (options_.mirror) planes_.reflect(options_.mirror->image);
-  planes_.sort();
+  planes_.sort(cloth_.node_count);
   return pierced || !piercings_.empty() || swollen_;
 }
 
@@ -159,10 +159,11 @@ void ClothContact::find_near(const Points3& nodes) {
     candidates_ = patches_.find_near(nodes, most);
     searched_at_ = nodes;
     searched_ = true;
+    std::vector<char> involved(boxes_.size(), false);
+    for (const auto& [f, g] : candidates_) at(involved, f) = at(involved, g) = true;
     involved_.clear();
-    for (const auto& [f, g] : candidates_) involved_.push_back(f), involved_.push_back(g);
-    std::sort(involved_.begin(), involved_.end());
-    involved_.erase(std::unique(involved_.begin(), involved_.end()), involved_.end());
+    for (int f = 0; f < static_cast<int>(involved.size()); ++f)
+      if (at(involved, f)) involved_.push_back(f);
   }
   for (const int f : involved_) {
     const Vec3 a = nodes.row(triangles_(f, 0)), b = nodes.row(triangles_(f, 1)), c = nodes.row(triangles_(f, 2));
@@ -186,7 +187,8 @@ void ClothContact::find_piercings(const Points3& nodes) {
         piercings_.push_back({e, g, found->s, found->barycentric});
     }
   };
-  for (const auto& [f, g] : near_) look(f, g), look(g, f);
+  for (const auto& [f, g] : near_)
+    if (at(boxes_, f).near(at(boxes_, g), 0)) look(f, g), look(g, f);
 }
 
 void ClothContact::mark_around_piercings() {
@@ -208,17 +210,14 @@ void ClothContact::mark_around_piercings() {
 void ClothContact::find_vertex_pairs(const Points3& nodes, int f, int g) {
   const Vec3 a = nodes.row(corner(g, 0)), b = nodes.row(corner(g, 1)), c = nodes.row(corner(g, 2));
   const bool uncertain = at(marked_, corner(g, 0)) || at(marked_, corner(g, 1)) || at(marked_, corner(g, 2));
-  const Vec3 normal = (b - a).cross(c - a), low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+  const Vec3 normal = normal_.row(g);
   const double steep = reach_ * reach_ * normal.squaredNorm();
-  const auto near_box = [&](const Vec3& p) {
-    return ((low - p).array() <= reach_).all() && ((p - high).array() <= reach_).all();
-  };
   for (int k = 0; k < 3; ++k) {
     const int v = corner(f, k);
     if (at(owner_of_node_, v) != f || has_node(g, v) || (uncertain && at(marked_, v))) continue;
     const Vec3 p = nodes.row(v);
     const double height = normal.dot(p - a);
-    if (height * height > steep || !near_box(p)) continue;
+    if (height * height > steep || !at(boxes_, g).near({p, p}, reach_)) continue;
     const SurfacePoint nearest = closest_point_on_triangle(p, a, b, c);
     const double distance = std::sqrt(nearest.distance_squared);
     if (distance >= reach_ || distance < kLeastGap) continue;
@@ -242,7 +241,9 @@ void ClothContact::find_edge_pairs(const Points3& nodes, int f, int g) {
     const int e = at(owned_edges_, f)[static_cast<std::size_t>(k)];
     if (e < 0) continue;
     const auto [p, q] = at(edges_, e).node;
-    const Vec3 a = nodes.row(p), b = nodes.row(q), low = a.cwiseMin(b), high = a.cwiseMax(b);
+    const Vec3 a = nodes.row(p), b = nodes.row(q);
+    const TriangleBox box{a.cwiseMin(b), a.cwiseMax(b)};
+    if (!box.near(at(boxes_, g), reach_)) continue;
     const bool uncertain = at(marked_, p) || at(marked_, q);
     for (int l = 0; l < 3; ++l) {
       const int other = at(owned_edges_, g)[static_cast<std::size_t>(l)];
@@ -250,7 +251,7 @@ void ClothContact::find_edge_pairs(const Points3& nodes, int f, int g) {
       const auto [r, s] = at(edges_, other).node;
       if (p == r || p == s || q == r || q == s || (uncertain && (at(marked_, r) || at(marked_, s)))) continue;
       const Vec3 c = nodes.row(r), d = nodes.row(s);
-      if (((c.cwiseMin(d) - high).array() > reach_).any() || ((low - c.cwiseMax(d)).array() > reach_).any()) continue;
+      if (!box.near({c.cwiseMin(d), c.cwiseMax(d)}, reach_)) continue;
       const SegmentPair nearest = closest_points_of_segments(a, b, c, d);
       const double distance = nearest.apart.norm();
       if (distance >= reach_ || distance < kLeastGap) continue;

@@ -2,6 +2,7 @@
 #include "engine/sim/node_planes.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace toile {
 
@@ -15,8 +16,13 @@ void NodePlanes::reflect(const std::vector<int>& image) {
   }
 }
 
-void NodePlanes::sort() {
-  std::stable_sort(planes_.begin(), planes_.end(), [](const Plane& a, const Plane& b) { return a.node < b.node; });
+void NodePlanes::sort(int node_count) {
+  begin_.assign(static_cast<std::size_t>(node_count) + 1, 0);
+  for (const Plane& plane : planes_) ++begin_[static_cast<std::size_t>(plane.node) + 1];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  sorted_.resize(planes_.size());
+  for (const Plane& plane : planes_) sorted_[begin_[static_cast<std::size_t>(plane.node)]++] = plane;
+  planes_.swap(sorted_);
 }
 
 bool NodePlanes::limit(const Points3& from, Points3& to) const {

@@ -15,7 +15,7 @@ class NodePlanes {
   void add(int node, const Vec3& normal, double offset) { planes_.push_back({node, normal, offset}); }
   // Adds every plane's reflection across x = 0, for the opposite node: the limit of a symmetric move is symmetric then.
   void reflect(const std::vector<int>& image);
-  void sort();  // after the last was added, before limit()
+  void sort(int node_count);  // after the last was added, before limit()
   int count() const { return static_cast<int>(planes_.size()); }
 
   // Shortens the moves from `from`, where all planes hold, to `to` (#N x 3) so that they still hold; a move may turn
@@ -32,7 +32,8 @@ class NodePlanes {
 
   Vec3 limited(const Run& run, const Vec3& from, const Vec3& to, bool& touched) const;
 
-  std::vector<Plane> planes_;
+  std::vector<Plane> planes_, sorted_;
+  std::vector<std::size_t> begin_;  // per node, while sorting
 };
 
 }  // namespace toile
