@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "engine/core/units.h"
 #include "engine/sim/membrane.h"
 #include "engine/sim/standstill.h"
+#include "engine/sim/swing.h"
 
 namespace toile {
 namespace {
@@ -83,7 +84,7 @@ class Relaxation {
       });
     minimiser.start(start, evaluate);
     watched_ = watched_means(start);
-    last_nodes_ = start;
+    swing_.emplace(start);
     while (result_.iterations < options_.iterations && !done()) {
       report(progress, "drape", static_cast<double>(result_.iterations) / options_.iterations);
       helper_.call();
@@ -155,21 +156,13 @@ class Relaxation {
     for (std::size_t k = 0; k < means.size(); ++k)
       result_.last_move = std::max(result_.last_move, (means[k] - watched_[k]).norm());
     watched_ = means;
-    watch_swing(minimiser.nodes());
+    to_come_ = swing_->after_round(minimiser.nodes());
     calm_residual_ = calm_residual(energy_, minimiser.gradient());
     const bool calm = result_.iterations >= options_.least_iterations && calm_residual_ < options_.settled_residual &&
                       result_.last_move < options_.settled_move;
     calm_rounds_ += calm;
     result_.settled = calm && result_.residual < options_.settled_everywhere;
     knotted_ = energy_.cloth_contact && energy_.cloth_contact->piercings() > 0;
-  }
-
-  void watch_swing(const Points3& nodes) {
-    const double before = round_move_;
-    round_move_ = std::sqrt((nodes - last_nodes_).rowwise().squaredNorm().mean());
-    to_come_ = round_move_ < before ? round_move_ * round_move_ / (before - round_move_)
-                                    : std::numeric_limits<double>::infinity();
-    last_nodes_ = nodes;
   }
 
   std::vector<Vec3> watched_means(const Points3& nodes) const {
@@ -199,9 +192,8 @@ class Relaxation {
   bool knotted_ = false;  // layers that cross still push
   int calm_rounds_ = 0;   // so far
   Standstill standstill_;
-  Points3 last_nodes_;       // at the end of the last round
-  double round_move_ = 0.0;  // root mean square of the nodes, m
-  double to_come_ = 0.0;     // moves of all further rounds, m
+  std::optional<Swing> swing_;
+  double to_come_ = 0.0;  // moves of all further rounds, m
   RelaxResult result_;
 };
 

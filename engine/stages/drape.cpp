@@ -5,13 +5,9 @@
 #include <cmath>
 #include <memory>
 
-#include "engine/core/units.h"
-#include "engine/sim/newton.h"
-#include "engine/sim/position_based.h"
-#include "engine/sim/relax.h"
 #include "engine/sim/sewing.h"
 #include "engine/stages/arrange_panels.h"
-#include "engine/stages/drape_held.h"
+#include "engine/stages/come_to_rest.h"
 #include "engine/stages/drape_series.h"
 #include "engine/stages/find_node_mirror.h"
 #include "engine/stages/prepared_body.h"
@@ -26,20 +22,7 @@ constexpr int kLastRung = 1;
 constexpr double kMoreLift = 0.03;  // m
 constexpr SewingStage kFirmStage{10000, 1.0, 40};
 
-constexpr double kUsualTension = 1000;  // N/m, of the cloth that the default contact stiffness suits
-
-constexpr int kPairs = 5;  // of the minimiser: 4 to 20 need as many iterations on garments, and fewer fit the cache
-
-constexpr int kLeastFromWorn = 150;  // iterations before a garment that was worn already may count as settled
-
 constexpr double kTangledShare = 0.1;  // of piercings in the triangles: worn and transported garments have under 0.01
-
-// Contact of a garment that is far too small is made stiffer until no node, and no middle of an edge, is that deep in
-// the body, m.
-constexpr double kDeep = 0.001, kDeepEdge = 0.003, kFirmer = 4;
-constexpr int kMostFirmings = 2;
-
-constexpr double kStartReach = 0.001;  // m, within which friction at the start takes nodes as touching the body
 
 constexpr double kPinShare = 50;  // stiffness of a pin over that of contact: 1 N/m of tension moves it by 0.2 mm
 
@@ -233,7 +216,7 @@ class Draper {
     if (options_.keep_drape)
       result_.drape.nodes = start, result_.quality.rest = Rest::AsGiven;
     else
-      relax_from(start);
+      rest_from(start);
     const DrapeQuality solved = result_.quality;
     if (result_.drape.nodes.allFinite()) result_.quality = measure_drape(mesh_, field_->tree(), result_.drape);
     result_.quality.rest = solved.rest;
@@ -245,111 +228,18 @@ class Draper {
     report(progress_, "drape", 1);
   }
 
-  void relax_from(const Points3& start) {
-    report(progress_, "drape", 0);
-    Points3 from = start;
-    double stiffness = contact_stiffness();
-    for (int firmings = 0; relax_on(stiffness, from) && firmings < kMostFirmings; ++firmings) {
-      from = result_.drape.nodes;
-      stiffness *= kFirmer;
-    }
-  }
-
-  // True: the cloth pulls so hard that nodes lie deep in the body.
-  bool relax_on(double stiffness, const Points3& start) {
-    field_->look_ahead(start, thickness_ + kStartReach);
-    ContactOptions contact_options;
-    contact_options.thickness = thickness_;
-    contact_options.stiffness = stiffness;
-    contact_options.friction = options_.friction;
-    Contact contact(cloth_, *field_, contact_options);
-    if (held_) contact.hold_friction(held_->friction);
-    EdgeContact edges(cloth_, *field_, contact_options);
-    DrapeEnergy energy(cloth_, &contact, options_.gravity);
-    energy.edge_contact = &edges;
-    energy.holds = holds_;
-    energy.pins = pins_;
-    energy.mirror = mirror_ ? &*mirror_ : nullptr;
-    std::optional<ClothContact> layers;
-    if (options_.self_contact != SelfContact::Off) {
-      ClothContactOptions layers_options;
-      layers_options.mirror = energy.mirror;
-      layers.emplace(cloth_, mesh_, layers_options);
-      energy.cloth_contact = &*layers;
-    }
-    if (options_.solver == SolverKind::Pbd) return average_targets(energy, start), false;
-    if (options_.solver == SolverKind::Newton && options_.friction == 0) return refine(energy, start), false;
-    RelaxOptions relax_options;
-    relax_options.iterations = options_.iterations;
-    relax_options.stop_residual = options_.stop_residual;
-    relax_options.stop_settled = options_.stop_settled;
-    relax_options.quasi_newton.memory = kPairs;
-    if (worn_) relax_options.least_iterations = kLeastFromWorn;
-    relax_options.watched = free_lines(pattern_, mesh_);
-    const RelaxResult relaxed = relax(energy, start, relax_options, progress_);
-    result_.drape.nodes = relaxed.nodes;
-    DrapeDiagnostics& d = result_.diagnostics;
-    d.iterations += relaxed.iterations;
-    d.evaluations += relaxed.evaluations;
-    d.energy = relaxed.energy;
-    d.stalled = relaxed.stalled;
-    end_ = {contact.friction(), d.hold_height};
-    result_.quality.residual = relaxed.residual;
-    result_.quality.settling_move = relaxed.last_move;
-    const bool at_rest = relaxed.residual < DrapeOptions().stop_residual;  // whatever was asked for
-    result_.quality.rest = at_rest                                ? Rest::Converged
-                           : relaxed.converged || relaxed.settled ? Rest::Settled
-                                                                  : Rest::NotAtRest;
-    if (options_.solver == SolverKind::Newton) return refine(energy, relaxed.nodes), false;
-    return presses_deep(contact.distances(), edges);
-  }
-
-  // Whether nodes or middles of edges lie deep in the body itself: within toes and fingers the field is flatter. Pinned
-  // nodes lie where they are wanted.
-  bool presses_deep(Eigen::VectorXd distances, EdgeContact& edges) const {
-    for (const Pin& pin : pins_) distances[pin.node] = 0;
-    const Points3& nodes = result_.drape.nodes;
-    for (Eigen::Index i = 0; i < distances.size(); ++i)
-      if (distances[i] < 0 && depth_inside(field_->tree(), nodes.row(i)) > kDeep) return true;
-    if (!pins_.empty()) return false;
-    const std::vector<Vec3> middles = edges.inside(nodes);
-    return std::any_of(middles.begin(), middles.end(),
-                       [&](const Vec3& p) { return depth_inside(field_->tree(), p) > kDeepEdge; });
-  }
-
-  // To the very minimum, contacts and friction as they stand in `energy`.
-  void refine(DrapeEnergy& energy, const Points3& start) {
-    NewtonOptions options;
-    options.stop_residual = options_.newton_residual;
-    if (energy.cloth_contact) energy.cloth_contact->hold(start);
-    const NewtonResult refined = newton(energy, start, options, progress_);
-    result_.drape.nodes = refined.nodes;
-    DrapeDiagnostics& d = result_.diagnostics;
-    d.iterations += refined.iterations;
-    d.evaluations += refined.evaluations;
-    d.energy = refined.energy;
-    d.stalled = refined.stalled;
-    result_.quality.residual = refined.residual;
-    if (refined.residual < options_.stop_residual) result_.quality.rest = Rest::Converged;
-  }
-
-  // Cloth that pulls harder presses harder: the depth stays what it is with the fabric the option was chosen for.
-  double contact_stiffness() const {
-    const double tension = std::max(cloth_.fabric.weft_stiffness, cloth_.fabric.warp_stiffness);
-    return options_.contact_stiffness * std::max(1.0, tension / kUsualTension);
-  }
-
-  void average_targets(DrapeEnergy& energy, const Points3& start) {
-    PositionBasedOptions options;
-    options.iterations = options_.iterations;
-    options.fibre_slack = options_.fibre_slack;
-    options.shear_limit = options_.shear_limit_deg * kRadianPerDegree;
-    options.gravity = options_.gravity;
-    result_.drape.nodes = position_based(energy, *field_, thickness_, start, options, progress_);
-    Points3 gradient(start.rows(), 3);
-    result_.diagnostics.iterations = options.iterations;
-    result_.diagnostics.energy = energy.evaluate(result_.drape.nodes, gradient);
-    result_.quality.residual = energy.residual(gradient);
+  void rest_from(const Points3& start) {
+    const GarmentOnBody garment{.mesh = mesh_,
+                                .cloth = cloth_,
+                                .field = *field_,
+                                .thickness = thickness_,
+                                .holds = holds_,
+                                .pins = pins_,
+                                .mirror = mirror_ ? &*mirror_ : nullptr,
+                                .watched = free_lines(pattern_, mesh_),
+                                .worn = worn_,
+                                .friction = held_ ? &held_->friction : nullptr};
+    end_ = {come_to_rest(garment, start, options_, result_, progress_), result_.diagnostics.hold_height};
   }
 
   const Pattern& pattern_;

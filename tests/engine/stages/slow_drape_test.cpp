@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every garment of ../shared/data from flat on its body, and what is measured must hold.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
+#include "engine/stages/drape_held.h"
 #include "tests/support/dressed.h"
 #include "tests/support/shared_data.h"
 
@@ -101,6 +104,29 @@ TEST(SlowDrape, GarmentThatIsNowhereNearTheBodyIsRefused) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::DrapeFailed);
   }
+}
+
+// Far too small at the armpits, pressed layer on layer there; toes and fingers thinner than the field's lattice.
+TEST(SlowDrape, SettledMeansAllNodesAndTheBodyItself) {
+  TOILE_REQUIRE_SHARED_DATA();
+  const test::Dressing shirt = test::dress("shirt_darts_long", 4300, "mh_male_old_heavy");
+  const DrapeResult tight = drape(shirt.pattern, shirt.mesh, shirt.body, shirt.options, nullptr);
+  EXPECT_EQ(rest_name(tight.quality.rest), "settled");
+  expect_worn(tight);
+  const test::Dressing suit = test::dress("gc_jumpsuit_mean_all", 10000, "mh_female_average");
+  expect_worn(drape(suit.pattern, suit.mesh, suit.body, suit.options, nullptr));
+}
+
+TEST(SlowDrape, GoesOnFromItsEndWhereFrictionIsHeld) {
+  TOILE_REQUIRE_SHARED_DATA();
+  test::Dressing d = test::dress("skirt_pencil", 2000);
+  HeldDrape end;
+  const Drape first = drape_to_hold(d.pattern, d.mesh, d.body, d.options, end, nullptr).drape;
+  const Drape on = drape_held(d.pattern, d.mesh, d.body, first, end, d.options, nullptr).drape;
+  EXPECT_LT(std::sqrt((on.nodes - first.nodes).rowwise().squaredNorm().mean()), 0.001);
+  EXPECT_NEAR(test::waist_height(d.pattern, d.mesh, on), test::waist_height(d.pattern, d.mesh, first), 2e-4);
+  end.friction.load.conservativeResize(5);
+  EXPECT_THROW(drape_held(d.pattern, d.mesh, d.body, first, end, d.options, nullptr), Error);
 }
 
 TEST(SlowDrape, SameInputsGiveTheSameBytes) {
