@@ -162,8 +162,8 @@ void archive(A& a, AlteredRegion& v) {
 }
 template <class A>
 void archive(A& a, SheetStress& v) {
-  auto& [energy, p95, p98, way, shift, area, over] = v;
-  a(energy, p95, p98, way, shift, area, over);
+  auto& [energy, p95, p98, way, shift, lean, area, over] = v;
+  a(energy, p95, p98, way, shift, lean, area, over);
 }
 template <class A>
 void archive(A& a, Tear& v) {

@@ -19,6 +19,8 @@ void move_rest(const PolygonPlace& place, PieceMap& map) {
   for (Eigen::Index v = 0; v < map.rest.rows(); ++v) map.rest.row(v) = place(map.rest.row(v).transpose()).transpose();
 }
 
+constexpr int kTruings = 2;  // after the first
+
 // Plies of one panel that differ by more than both cannot be eased onto each other: the wanted panel has its darts
 // elsewhere than the cloth, and strips across their mouths would gather it.
 constexpr double kMostEased = 0.33, kMostEasedLength = 8e-3;  // of the longer ply, and m
@@ -42,16 +44,7 @@ class Cutting {
     cut_.chains = border_chains(cut_.borders);
     cut_.seams = ChainSeams(cut_.borders, cut_.chains, cut_.corners).find(pattern_, mesh_, target_rest_, cut_.flags);
     if (all_meet()) {
-      const std::vector<PieceBorder> borders = cut_.borders;
-      const std::vector<SewnPiece> pieces = cut_.pieces;
-      true_seams(cut_.chains, cut_.seams, fixed_pieces(), mesh_.target_edge_length, cut_.borders, cut_.pieces);
-      draw_pieces();
-      for (std::size_t i = 0; i < cut_.drawn.size(); ++i) {
-        if (cut_.drawn[i].edges.sound || !cut_.borders[i].trued) continue;
-        cut_.borders[i] = borders[i];  // too narrow to be trued
-        cut_.pieces[i] = pieces[i];
-        draw_edges(i);
-      }
+      true_and_draw();
       if (all_sound()) return std::move(cut_);
     }
     cut_.pieces.clear();
@@ -64,6 +57,7 @@ class Cutting {
   std::string try_panel(int p, const AlteredParts& parts, bool recut);
   bool all_meet();
   std::vector<bool> fixed_pieces() const;
+  void true_and_draw();
   void draw_pieces();
   void draw_edges(std::size_t i);
   bool all_sound();
@@ -180,7 +174,32 @@ std::vector<bool> Cutting::fixed_pieces() const {
   return fixed;
 }
 
+// Pieces too narrow to be trued stay as they are, and what is sewn to them follows.
+void Cutting::true_and_draw() {
+  const std::vector<PieceBorder> borders = cut_.borders;
+  const std::vector<SewnPiece> pieces = cut_.pieces;
+  std::vector<bool> fixed = fixed_pieces();
+  for (int pass = 0;; ++pass) {
+    std::vector<bool> failed =
+        true_seams(cut_.chains, cut_.seams, fixed, mesh_.target_edge_length, cut_.borders, cut_.pieces);
+    draw_pieces();
+    for (std::size_t i = 0; i < failed.size(); ++i)
+      if (!cut_.drawn[i].edges.sound && cut_.borders[i].trued) failed[i] = true;
+    if (std::find(failed.begin(), failed.end(), true) == failed.end()) return;
+    const bool again = pass < kTruings;
+    for (std::size_t i = 0; i < failed.size(); ++i) {
+      if (failed[i]) fixed[i] = true;
+      if (!again && !failed[i]) continue;
+      cut_.borders[i] = borders[i];
+      cut_.pieces[i] = pieces[i];
+      if (!again) draw_edges(i);
+    }
+    if (!again) return;
+  }
+}
+
 void Cutting::draw_pieces() {
+  cut_.drawn.clear();
   cut_.edges.assign(cut_.chains.size(), {PanelId(-1), 0});
   for (std::size_t i = 0; i < cut_.borders.size(); ++i) {
     const SewnPiece& piece = cut_.pieces[i];

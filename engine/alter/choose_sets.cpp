@@ -130,6 +130,7 @@ double set_burden(const TearSet& set, const std::vector<TearUnit>& units, const 
   const double share = share_of_limit(set.stress, options.stretch_limit);
   double cost = options.excess_price * std::clamp(share - 1.0, 0.0, kMostExcess) + kStretchShare * std::min(share, 1.0);
   if (share > options.near_enough) cost += options.undone_price;
+  cost += options.lean_price * std::min(share_of_lean(set.stress, options.stretch_limit), kMostExcess);
   std::vector<bool> released(plies.size(), false);
   for (const int unit : set.units) {
     cost += units[static_cast<std::size_t>(unit)].burden;

@@ -16,7 +16,7 @@ namespace {
 struct Nearness {
   double edge, corner, length;  // m
 };
-constexpr Nearness kAsCut = {6e-4, 1e-3, 1.0}, kTrued = {2e-4, 2e-4, 1e-4};
+constexpr Nearness kAsCut = {6e-4, 1e-3, 1.0}, kAsDrawn = {6e-4, 1e-3, 2e-4}, kTrued = {2e-4, 2e-4, 1e-4};
 constexpr double kStraight = 2e-4;    // m
 constexpr double kSmooth = 8e-4;      // m: of a Bézier through the chain's points
 constexpr double kSameLength = 1e-4;  // m: of such a Bézier and the chain
@@ -138,7 +138,7 @@ bool can_be_cut(const PieceEdges& edges) {
 class EdgeDrawer {
  public:
   EdgeDrawer(const PieceBorder& piece, const std::vector<const BorderChain*>& chains, const Panel* original)
-      : original_(original), near_(piece.trued ? kTrued : kAsCut) {
+      : original_(original), near_(piece.trued ? kTrued : kAsDrawn) {
     for (const BorderChain* chain : chains) {
       points_.emplace_back();
       for (const int v : chain->vertices) points_.back().push_back(piece.vertices[static_cast<std::size_t>(v)].rest);

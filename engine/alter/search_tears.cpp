@@ -11,7 +11,7 @@ namespace toile {
 namespace {
 
 constexpr double kLeastWay = 0.004;  // m: what strain moves by less is below the accuracy of measuring    [ISO20685]
-constexpr double kReach = 0.4;    // m: cloth that is longer may be strained less, so that its ends are moved no farther
+constexpr double kReach = 0.3;    // m: cloth that is longer may be strained less, so that its ends are moved no farther
 constexpr double kProbe = 0.004;  // m, between the places where a line is looked at
 
 class Search {
@@ -46,7 +46,10 @@ class Search {
   }
 
  private:
-  bool within(const TearSet& set) const { return share_of_limit(set.stress, options_.stretch_limit) < 1.0; }
+  bool within(const TearSet& set) const {
+    return share_of_limit(set.stress, options_.stretch_limit) < 1.0 &&
+           share_of_lean(set.stress, options_.stretch_limit) < 1.0;
+  }
 
   bool reached(std::size_t first) const {
     return std::any_of(found_.begin() + static_cast<std::ptrdiff_t>(first), found_.end(),
@@ -157,6 +160,10 @@ double share_of_strain(const SheetStress& stress, double limit) {
 
 double share_of_shift(const SheetStress& stress, double limit) {
   return std::min(stress.shift / (limit * kReach), stress.way / kLeastWay);
+}
+
+double share_of_lean(const SheetStress& stress, double limit) {
+  return stress.lean / (limit * kReach);
 }
 
 double share_of_limit(const SheetStress& stress, double limit) {

@@ -36,10 +36,13 @@ double farthest_outside(const Sheet& sheet);
 double share_of_strain(const SheetStress& stress, double limit);
 
 // How far the mean strain moves the cloth's edges off over how far it may, which is as far as the allowed stretch moves
-// those of 40 cm of cloth: 3 % of a trouser leg would be a hem 30 mm too high.
+// those of 30 cm of cloth: 3 % of a trouser leg would be a hem 30 mm too high.
 double share_of_shift(const SheetStress& stress, double limit);
 
-// The larger of both.
+// How far the cloth leans, by shear or by strain that grows across it, over how far mean strain may move its edges.
+double share_of_lean(const SheetStress& stress, double limit);
+
+// The larger of strain and shift.
 double share_of_limit(const SheetStress& stress, double limit);
 
 // What farther out than this is no alteration, m.

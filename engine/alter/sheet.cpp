@@ -2,6 +2,7 @@
 #include "engine/alter/sheet.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace toile {
@@ -125,6 +126,15 @@ std::vector<std::vector<BorderEdge>> border_loops(const Sheet& sheet) {
     loops.push_back(std::move(loop));
   }
   return loops;
+}
+
+Vec2 extent_of(const Sheet& sheet) {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const SheetVertex& vertex : sheet.vertices) {
+    low = low.cwiseMin(vertex.flat);
+    high = high.cwiseMax(vertex.flat);
+  }
+  return high - low;
 }
 
 }  // namespace toile

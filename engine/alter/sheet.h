@@ -60,6 +60,8 @@ struct Sheet {
 Sheet make_sheet(const Pattern& pattern, const PatternMesh& mesh, const Points2& cloth, const Points2& wanted,
                  int panel, const Sheet* like = nullptr);
 
+Vec2 extent_of(const Sheet& sheet);  // of the cloth, weft and warp, m
+
 // Directed border edges (cloth on the left), each with the side it lies on, or -1 for the lip of a cut.
 struct BorderEdge {
   int from = 0, to = 0, side = -1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/alter/sheet_equations.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "engine/alter/sheet_fibres.h"
@@ -12,6 +13,15 @@ namespace {
 
 constexpr double kAttachment = 1e3;  // weight of sliding sides, relative to the membrane
 constexpr double kProximal = 1e-6;   // of the diagonal: holds cloth that nothing else holds
+// How stiff long cloth is to shear within the limit, relative to stretch: free shear would let a trouser leg lean as
+// far as the limit allows, a hand's breadth at the hem, where letting a side go upright costs hardly any stretch. Short
+// cloth leans little, and its free shear spares it cuts.
+constexpr double kShear = 0.2;
+constexpr double kShort = 0.6, kLong = 0.9;  // m
+
+double shear_stiffness(const Sheet& sheet) {
+  return kShear * std::clamp((extent_of(sheet).maxCoeff() - kShort) / (kLong - kShort), 0.0, 1.0);
+}
 
 Mat2 flat_edges(const Sheet& sheet, const std::array<int, 3>& face) {
   const auto at = [&](std::size_t i) -> const Vec2& { return sheet.vertices[static_cast<std::size_t>(face[i])].flat; };
@@ -23,7 +33,7 @@ Mat2 flat_edges(const Sheet& sheet, const std::array<int, 3>& face) {
 }  // namespace
 
 SheetEquations::SheetEquations(const Sheet& sheet, double hold)
-    : hold_(sheet.vertices.size(), 0.0), solver_(solver_of(sheet)) {
+    : shear_kept_(1.0 / (1.0 + shear_stiffness(sheet))), hold_(sheet.vertices.size(), 0.0), solver_(solver_of(sheet)) {
   held_.setZero(sheet.vertex_count(), 2);
   for (const Face& face : faces_)
     for (const int v : face.corner) hold_[static_cast<std::size_t>(v)] += hold * face.area / 3.0;
@@ -100,7 +110,7 @@ double SheetEquations::sweep() {
   right_ = held_ + proximal_ * now_;
   double energy = 0.0;
   for (const Face& face : faces_) {
-    const Mat2 now = gradient(face), wanted = fibre_projection(now, face.length);
+    const Mat2 now = gradient(face), wanted = fibre_projection(now, face.length, shear_kept_);
     energy += face.area * (now - wanted).squaredNorm();
     const Mat2 pull = face.area * wanted * face.inverse.transpose();  // columns: corners 1 and 2
     right_.row(face.corner[1]) += pull.col(0).transpose();

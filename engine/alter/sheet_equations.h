@@ -43,6 +43,7 @@ class SheetEquations {
 
   std::vector<Face> faces_;
   double area_ = 0.0, proximal_ = 0.0;
+  double shear_kept_ = 1.0;
   std::vector<double> hold_;  // per vertex
   Points2 held_;              // what hold and the plain map add to the right-hand side
   PlaneSolver solver_;

@@ -22,14 +22,39 @@ Mat2 edges_to(const Sheet& sheet, const std::array<int, 3>& face, Vec2 SheetVert
   return edges;
 }
 
-Vec2 extent_of(const Sheet& sheet) {
-  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const SheetVertex& vertex : sheet.vertices) {
-    low = low.cwiseMin(vertex.flat);
-    high = high.cwiseMax(vertex.flat);
-  }
-  return high - low;
+Vec2 flat_middle(const Sheet& sheet, std::size_t face) {
+  Vec2 middle = Vec2::Zero();
+  for (const int v : sheet.faces[face]) middle += sheet.vertices[static_cast<std::size_t>(v)].flat / 3.0;
+  return middle;
 }
+
+// Mean shear of the cloth, and how the strain of each fibre grows across it: both bring far edges off sideways.
+class Lean {
+ public:
+  void add(double area, const Vec2& at, const Mat2& now, const Vec2& length) {
+    const Vec2 strain = now.colwise().norm().transpose() - length, across(at.y(), at.x());
+    area_ += area;
+    shear_ += area * now.col(0).normalized().dot(now.col(1).normalized());
+    strain_ += area * strain;
+    at_ += area * across;
+    squares_ += area * across.cwiseAbs2();
+    products_ += area * across.cwiseProduct(strain);
+  }
+  // How far the mean shear brings the end of cloth so large off, or one long edge past the other.
+  double way(const Vec2& extent) const {
+    if (area_ <= 0.0) return 0.0;
+    const Vec2 spread = squares_ / area_ - (at_ / area_).cwiseAbs2();
+    const Vec2 grows = products_ / area_ - (at_ / area_).cwiseProduct(strain_ / area_);
+    double way = std::abs(shear_) / area_ * extent.maxCoeff();
+    for (int k = 0; k < 2; ++k)
+      if (spread[k] > 0.0) way = std::max(way, std::abs(grows[k] / spread[k]) * extent.prod());
+    return way;
+  }
+
+ private:
+  double area_ = 0.0, shear_ = 0.0;
+  Vec2 strain_ = Vec2::Zero(), at_ = Vec2::Zero(), squares_ = Vec2::Zero(), products_ = Vec2::Zero();
+};
 
 }  // namespace
 
@@ -67,6 +92,7 @@ SheetStress measure_stress(const Sheet& sheet, double limit) {
   WeightedValues tension;
   std::array<WeightedValues, 2> along;  // weft, warp
   Vec2 lengthened = Vec2::Zero();
+  Lean lean;
   for (std::size_t f = 0; f < sheet.faces.size(); ++f) {
     if (sheet.folded[f]) continue;
     const double area = 0.5 * edges_to(sheet, sheet.faces[f], &SheetVertex::flat).determinant();
@@ -76,6 +102,7 @@ SheetStress measure_stress(const Sheet& sheet, double limit) {
     stress.area += area;
     tension.emplace_back(now.colwise().norm().maxCoeff() - 1.0, area);
     lengthened += area * (now.colwise().norm().transpose() - length);
+    lean.add(area, flat_middle(sheet, f), now, length);
     for (int k = 0; k < 2; ++k) along[static_cast<std::size_t>(k)].emplace_back(now.col(k).norm() - 1.0, area);
   }
   stress.p95 = weighted_quantile(tension, 0.95);
@@ -84,6 +111,7 @@ SheetStress measure_stress(const Sheet& sheet, double limit) {
   for (int k = 0; k < 2; ++k)
     stress.way = std::max(stress.way, extent[k] * weighted_quantile(along[static_cast<std::size_t>(k)], 0.95));
   if (stress.area > 0.0) stress.shift = std::max(0.0, extent.cwiseProduct(lengthened).maxCoeff() / stress.area);
+  stress.lean = lean.way(extent);
   for (const auto& [value, area] : tension)
     if (value > limit) stress.over += area;
   if (stress.area > 0.0) stress.over /= stress.area;

@@ -3,10 +3,10 @@
 //
 // Unknown: where every vertex of the sheet is.  Minimise
 //   sum_f A_f |G_f - P_f|^2  +  1e3 sum_attached (n.(x - c))^2  +  h sum_v A_v |x - g|^2  +  1e-6 diag |x - x_before|^2
-// with P_f the nearest gradient whose fibres have length l* = min(1, that of the plain map) at 90 +- 5 degrees, and (c,
-// n) foot and normal on the wanted side, on which attached vertices slide, and g the place in the plain map, which
-// keeps cloth that hangs on no side, or could slide along one, from drifting off.  l* < 1: cloth that must shrink here
-// is the business of the pass with the roles swapped, not stress.
+// with P_f the nearest gradient whose fibres have length l* = min(1, that of the plain map) at 90 +- 5 degrees, where
+// shear costs a fifth of what stretch does, and (c, n) foot and normal on the wanted side, on which attached vertices
+// slide, and g the place in the plain map, which keeps cloth that hangs on no side, or could slide along one, from
+// drifting off.  l* < 1: cloth that must shrink here is the business of the pass with the roles swapped, not stress.
 //   local step: P_f      global step: a prefactored solve; (c, n) renewed every few sweeps
 // Source: [Eggler2024, Sec. 6]; energy and weights method.md section 5.  Lengths in metres.
 #pragma once
@@ -30,6 +30,7 @@ struct SheetStress {
   double p98 = 0.0;     // ... which near the tips of tears and darts, where strain is singular, tells more of the mesh
   double way = 0.0;     // m, how far the p95 of weft or warp strain brings the cloth's edges off: strain times extent
   double shift = 0.0;   // m, how far the mean of weft or warp strain brings the cloth's edges off
+  double lean = 0.0;    // m, how far shear or strain that grows across the cloth brings an edge off sideways
   double area = 0.0;    // of the cloth, m^2
   double over = 0.0;    // share of the area above `limit`
 };

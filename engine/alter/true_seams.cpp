@@ -10,10 +10,11 @@
 namespace toile {
 namespace {
 
-constexpr double kLeastOff = 1.5e-4;  // m: less is left as it is
-constexpr double kMostOff = 0.15;     // of a chain's length: what differs by more is eased
-constexpr double kShortOff = 0.013;   // m: or by less than this, of short chains
-constexpr double kUnstrained = 0.02;  // of the lengths sewn: how much cloth without strain counts beside them
+constexpr double kLeastOff = 1.5e-4;    // m: less is left as it is
+constexpr double kMostOff = 0.15;       // of a chain's length: what differs by more is eased
+constexpr double kMostFollowed = 0.25;  // of a chain's length: new cloth takes another length than its place has
+constexpr double kShortOff = 0.013;     // m: or by less than this, of short chains
+constexpr double kUnstrained = 0.02;    // of the lengths sewn: how much cloth without strain counts beside them
 
 class Truing {
  public:
@@ -27,7 +28,7 @@ class Truing {
     scale_.assign(pieces.size(), Vec2::Ones());
   }
 
-  void run(double edge_length) {
+  std::vector<bool> run(double edge_length) {
     for (const ChainSeam& seam : seams_)
       if (!is_new(seam.a) && !is_new(seam.b)) meet_in_the_middle(seam);
     for (const ChainSeam& seam : seams_)
@@ -35,8 +36,10 @@ class Truing {
     for (std::size_t i = 0; i < pieces_.size(); ++i) take_strain(i);
     for (const ChainSeam& seam : seams_)
       if (is_new(seam.a) && is_new(seam.b)) meet_in_the_middle(seam);
+    std::vector<bool> failed(pieces_.size(), false);
     for (std::size_t i = 0; i < pieces_.size(); ++i)
-      if (worth_it(i)) true_piece(i, edge_length);
+      if (worth_it(i)) failed[i] = !true_piece(i, edge_length);
+    return failed;
   }
 
  private:
@@ -50,11 +53,13 @@ class Truing {
   }
   double& wanted(int chain) { return wanted_[static_cast<std::size_t>(chain)]; }
 
-  static bool near(double a, double b) { return std::abs(a - b) < std::max(kShortOff, kMostOff * std::max(a, b)); }
+  static bool near(double a, double b, double most) {
+    return std::abs(a - b) < std::max(kShortOff, most * std::max(a, b));
+  }
 
   void meet_in_the_middle(const ChainSeam& seam) {
     const double a = wanted(seam.a), b = wanted(seam.b) + seam.eased;
-    if (!near(a, b)) return;
+    if (!near(a, b, kMostOff)) return;
     const double both = is_fixed(seam.a) ? a : is_fixed(seam.b) ? b : 0.5 * (a + b);
     set(seam, both);
   }
@@ -62,9 +67,9 @@ class Truing {
   // New cloth takes the length of kept cloth; where it is far off, in a corner, both give way.
   void follow(const ChainSeam& seam) {
     const double a = wanted(seam.a), b = wanted(seam.b) + seam.eased;
-    if (!near(a, b)) return;
+    if (!near(a, b, kMostFollowed)) return;
     const int kept = is_new(seam.a) ? seam.b : seam.a;
-    const bool little = std::abs(a - b) < kMostOff * std::max(a, b) || is_fixed(kept);
+    const bool little = std::abs(a - b) < kMostFollowed * std::max(a, b) || is_fixed(kept);
     set(seam, !little ? 0.5 * (a + b) : is_new(seam.a) ? b : a);
   }
 
@@ -119,11 +124,11 @@ class Truing {
     return false;
   }
 
-  void true_piece(std::size_t i, double edge_length) {
+  bool true_piece(std::size_t i, double edge_length) {
     TruedPiece piece(borders_[i], pieces_[i].map, scale_[i], edge_length);
     for (std::size_t c = 0; c < chains_.size(); ++c)
       if (static_cast<std::size_t>(chains_[c].piece) == i && sewn_[c]) piece.want(chains_[c], wanted_[c]);
-    piece.give(borders_[i], pieces_[i].map);
+    return piece.give(borders_[i], pieces_[i].map);
   }
 
   const std::vector<BorderChain>& chains_;
@@ -138,10 +143,10 @@ class Truing {
 
 }  // namespace
 
-void true_seams(const std::vector<BorderChain>& chains, const std::vector<ChainSeam>& seams,
-                const std::vector<bool>& fixed, double edge_length, std::vector<PieceBorder>& borders,
-                std::vector<SewnPiece>& pieces) {
-  Truing(chains, seams, fixed, borders, pieces).run(edge_length);
+std::vector<bool> true_seams(const std::vector<BorderChain>& chains, const std::vector<ChainSeam>& seams,
+                             const std::vector<bool>& fixed, double edge_length, std::vector<PieceBorder>& borders,
+                             std::vector<SewnPiece>& pieces) {
+  return Truing(chains, seams, fixed, borders, pieces).run(edge_length);
 }
 
 }  // namespace toile

@@ -16,6 +16,7 @@ constexpr double kLengthWeight = 1e3;  // w, m
 constexpr double kHold = 25.0;         // h, 1/m^2: what is moved dies out over 20 cm
 constexpr double kCoarse = 0.025;      // m: edge length of the mesh, at least
 constexpr double kSettled = 1e-6;      // m
+constexpr double kFarthest = 0.05;     // m a point may be moved: more is no truing
 constexpr int kSteps = 10;
 
 Points2 rows_of(const std::vector<Vec2>& points) {
@@ -75,8 +76,8 @@ void TruedPiece::want(const BorderChain& chain, double length) {
   for (std::size_t e = begin; e < edges_.size(); ++e) edges_[e].length *= length / own;
 }
 
-void TruedPiece::give(PieceBorder& border, PieceMap& map) {
-  if (border_count_ == 0 || !fit()) return;
+bool TruedPiece::give(PieceBorder& border, PieceMap& map) {
+  if (border_count_ == 0 || !fit()) return false;
   for (std::size_t i = 0; i < border.vertices.size(); ++i)
     border.vertices[i].rest = now_[static_cast<std::size_t>(first_[i])];
   border.trued = true;
@@ -86,12 +87,15 @@ void TruedPiece::give(PieceBorder& border, PieceMap& map) {
   const FlatLocator locator(target_, triangles_);
   for (Eigen::Index v = 0; v < map.rest.rows(); ++v)
     map.rest.row(v) += locator.closest(map.target.row(v).transpose()).of(ways, triangles_);
+  return true;
 }
 
 bool TruedPiece::fit() {
   now_ = before_;
   for (int i = 0; i < kSteps && step() > kSettled; ++i) {
   }
+  for (std::size_t v = 0; v < now_.size(); ++v)
+    if (!((now_[v] - before_[v]).norm() < kFarthest)) return false;
   return is_simple_polygon({now_.begin(), now_.begin() + border_count_});
 }
 

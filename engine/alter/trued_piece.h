@@ -20,8 +20,8 @@ class TruedPiece {
 
   // A chain of the border shall be so long.
   void want(const BorderChain& chain, double length);
-  // Moves border and map. Leaves both, when the outline would cross itself.
-  void give(PieceBorder& border, PieceMap& map);
+  // Moves border and map. Leaves both and returns false, when the outline would cross itself.
+  bool give(PieceBorder& border, PieceMap& map);
 
  private:
   struct Edge {
