@@ -74,13 +74,13 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
         return std::pair(std::move(taken_in), take_in(reference_body, part));
       },
       [&](StageRunner& part) {
-        return part.run("import_target_body", 8, input_key(target_body), [&] { return read_target_body(target_body); });
+        return part.run("import_target_body", 9, input_key(target_body), [&] { return read_target_body(target_body); });
       });
   Body target = imported.value.body;
   auto [reference, found] = runner.run_both(
       [&](StageRunner& part) { return drape_on(garment, original.first, original.second, options, part); },
       [&](StageRunner& part) {
-        return part.run("register_bodies", 11, key_of(input_key(reference_body), imported.key), [&] {
+        return part.run("register_bodies", 12, key_of(input_key(reference_body), imported.key), [&] {
           const Landmarks given = given_landmarks(target_body, target.normalised_from_file);
           return register_bodies(original.second.value, imported.value.seen(), {.target_landmarks = given},
                                  part.progress());

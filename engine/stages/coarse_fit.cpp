@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/stages/coarse_fit.h"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
 #include "engine/geometry/convex_hull.h"
@@ -10,7 +12,17 @@
 namespace toile {
 namespace {
 
-constexpr double kFull = 0.7;  // share of the full skinning: within one family less is better, across sexes more
+// Share of the full skinning. Within one family less is better, across sexes more; joints of head and arms are sure,
+// finger tips are not: scans cut them off.
+constexpr double kFullTrunk = 0.7, kFullLimb = 0.7, kFullHead = 1.0, kFullArm = 1.0;
+constexpr double kByProfile = 0.5;  // share of the trunk's profile in its full skinning
+constexpr int kProfileSmoothing = 20;
+
+double full_share(std::size_t bone) {
+  if (bone < Head) return kFullTrunk;
+  if (bone == Head) return kFullHead;
+  return bone < Hand ? kFullArm : kFullLimb;
+}
 
 // v -> linear (v - from) + to
 struct BoneMove {
@@ -101,13 +113,67 @@ Moves soft_moves(const BodyProportions& reference, const BodyProportions& target
   return moves;
 }
 
+// The trunk level by level: each box of the reference onto the target's. Three bones pinch it between the waist, where
+// they have its width, and the chest.
+class TrunkProfile {
+ public:
+  TrunkProfile(const BodyProportions& reference, const BodyProportions& target, const Moves& full)
+      : reference_(reference), target_(target), full_(full) {}
+
+  Vec3 operator()(const Vec3& v) const {
+    const Skeleton &r = reference_.skeleton, &t = target_.skeleton;
+    const double up = (v.y() - r.pelvis.y()) / (r.chest.y() - r.pelvis.y());
+    if (up <= 0.0) return full_[Pelvis](v);
+    if (up >= 1.0) return full_[Chest](v);
+    const Vec2 low = at(reference_.trunk_low, up), high = at(reference_.trunk_high, up);
+    const Vec2 to_low = at(target_.trunk_low, up), to_high = at(target_.trunk_high, up);
+    const Vec2 p = to_low + (to_high - to_low).cwiseQuotient(high - low).cwiseProduct(Vec2(v.x(), v.z()) - low);
+    return {p.x(), t.pelvis.y() + up * (t.chest.y() - t.pelvis.y()), p.y()};
+  }
+
+ private:
+  template <std::size_t n>
+  static Vec2 at(const std::array<Vec2, n>& levels, double up) {
+    const double s = up * static_cast<double>(n - 1);
+    const std::size_t i = std::min(n - 2, static_cast<std::size_t>(s));
+    const double t = s - static_cast<double>(i);
+    return (1.0 - t) * levels[i] + t * levels[i + 1];
+  }
+
+  const BodyProportions &reference_, &target_;
+  const Moves& full_;
+};
+
+// Folds, bellies and holes are left to the refinement: only how the trunk widens on the whole is taken. Ends stay.
+template <std::size_t n>
+void smooth_levels(std::array<Vec2, n>& levels) {
+  for (int k = 0; k < kProfileSmoothing; ++k) {
+    const std::array<Vec2, n> old = levels;
+    for (std::size_t i = 1; i + 1 < n; ++i) levels[i] = 0.25 * old[i - 1] + 0.5 * old[i] + 0.25 * old[i + 1];
+  }
+}
+
+void find_trunk_boxes(const BodySlices& slices, const Skeleton& skeleton, BodyProportions& found) {
+  const double most = 0.075 * skeleton.height;  // half of the size taken where there is no slice
+  const std::size_t n = found.trunk_low.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 c =
+        skeleton.pelvis + static_cast<double>(i) / static_cast<double>(n - 1) * (skeleton.chest - skeleton.pelvis);
+    const auto piece = slices.middle(c.y());
+    found.trunk_low[i] = piece ? piece->low : Vec2(c.x() - most, c.z() - most);
+    found.trunk_high[i] = piece ? piece->high : Vec2(c.x() + most, c.z() + most);
+  }
+  smooth_levels(found.trunk_low), smooth_levels(found.trunk_high);
+}
+
 // Between both skinnings: moves are affine, so are their means.
 Moves mean_moves(const Moves& a, const Moves& b) {
   Moves mean;
   for (std::size_t i = 0; i < mean.size(); ++i) {
-    mean[i].linear = kFull * a[i].linear + (1.0 - kFull) * b[i].linear;
+    const double full = full_share(i);
+    mean[i].linear = full * a[i].linear + (1.0 - full) * b[i].linear;
     mean[i].from = a[i].from;
-    mean[i].to = kFull * a[i].to + (1.0 - kFull) * b[i](a[i].from);
+    mean[i].to = full * a[i].to + (1.0 - full) * b[i](a[i].from);
   }
   return mean;
 }
@@ -124,6 +190,7 @@ BodyProportions find_proportions(const TriangleMesh& body, const Skeleton& skele
     const Vec2 size = piece ? Vec2(piece->high - piece->low) : Vec2::Constant(0.15 * skeleton.height);
     found.trunk_width[i] = size.x(), found.trunk_depth[i] = size.y();
   }
+  find_trunk_boxes(slices, skeleton, found);
   for (const Side side : {Left, Right})
     found.leg_girth += 0.5 * hull_perimeter(slices.leg(0.8 * skeleton.crotch_y, side));
   return found;
@@ -131,13 +198,19 @@ BodyProportions find_proportions(const TriangleMesh& body, const Skeleton& skele
 
 Points3 coarse_fit(const Points3& reference_vertices, const Eigen::MatrixXd& weights, const BodyProportions& reference,
                    const BodyProportions& target) {
-  const Moves moves = mean_moves(full_moves(reference, target), soft_moves(reference, target));
+  const Moves full = full_moves(reference, target);
+  const Moves moves = mean_moves(full, soft_moves(reference, target));
+  const TrunkProfile profile(reference, target, full);
   Points3 fitted(reference_vertices.rows(), 3);
   for (Eigen::Index v = 0; v < fitted.rows(); ++v) {
     const Vec3 p = reference_vertices.row(v);
     Vec3 x = Vec3::Zero();
     for (int b = 0; b < kBoneCount; ++b)
-      if (const double w = weights(v, b); w > 0) x += w * moves[static_cast<std::size_t>(b)](p);
+      if (const double w = weights(v, b); w > 0) {
+        const auto bone = static_cast<std::size_t>(b);
+        x += w * moves[bone](p);
+        if (b < Head) x += w * kFullTrunk * kByProfile * (profile(p) - full[bone](p));
+      }
     fitted.row(v) = x;
   }
   return fitted;

@@ -15,7 +15,8 @@ namespace toile {
 struct BodyProportions {
   Skeleton skeleton;
   std::array<double, 3> trunk_width{}, trunk_depth{};  // m, of the trunk's slice at pelvis, waist, chest
-  double leg_girth = 0.0;                              // m, mean of both legs at 0.8 of the crotch height
+  std::array<Vec2, 9> trunk_low, trunk_high;  // m, its box (x, z) at even levels from pelvis to chest, smoothed
+  double leg_girth = 0.0;                     // m, mean of both legs at 0.8 of the crotch height
 };
 BodyProportions find_proportions(const TriangleMesh& body, const Skeleton& skeleton);
 
