@@ -28,6 +28,19 @@ class Program {
       if (!sets[p].empty()) match_plies(p);
   }
 
+  // No more jobs than `other` does, an answer to the same program with other prices.
+  void limit_jobs_to(const ChosenSets& other) {
+    std::set<int> done;
+    for (std::size_t p = 0; p < sets_.size(); ++p) {
+      if (sets_[p].empty()) continue;
+      for (const int unit : sets_[p][other.set_of_panel[p]].units)
+        done.insert(units_.of_panel[p][static_cast<std::size_t>(unit)].job);
+    }
+    IntegerConstraint row{{}, -kInfinite, static_cast<double>(done.size())};
+    for (const int y : done_) row.terms.emplace_back(y, 1.0);
+    program_.constraints.push_back(std::move(row));
+  }
+
   ChosenSets solve() const {
     const IntegerSolution solution = solve_integer_program(program_);
     if (!solution.feasible)
@@ -65,6 +78,7 @@ class Program {
   // A panel takes one set, so the sets of a panel that need the job are at most one together.
   void add_job(int job, const std::map<std::size_t, std::set<int>>& users) {
     const int y = add_variable(units_.job_cost[static_cast<std::size_t>(job)]);
+    done_.push_back(y);
     for (const auto& [panel, sets] : users) {
       IntegerConstraint row{{}, -kInfinite, 0.0};
       for (const int z : sets) row.terms.emplace_back(z, 1.0);
@@ -120,6 +134,7 @@ class Program {
   const ChooseSetsOptions& options_;
   std::vector<int> first_;
   std::map<int, std::map<std::size_t, std::set<int>>> users_of_job_;
+  std::vector<int> done_;  // y of every job that a set needs
   IntegerProgram program_;
 };
 
@@ -149,7 +164,12 @@ double set_burden(const TearSet& set, const std::vector<TearUnit>& units, const 
 ChosenSets choose_sets(const std::vector<std::vector<TearSet>>& sets, const TearUnits& units,
                        const std::vector<Sheet>& sheets, const std::vector<std::vector<SeamPartner>>& partners,
                        const std::vector<std::optional<PanelTwin>>& twins, const ChooseSetsOptions& options) {
-  return Program(sets, units, sheets, partners, twins, options).solve();
+  ChooseSetsOptions without_lean = options;
+  without_lean.lean_price = 0.0;
+  const ChosenSets fewest = Program(sets, units, sheets, partners, twins, without_lean).solve();
+  Program program(sets, units, sheets, partners, twins, options);
+  program.limit_jobs_to(fewest);
+  return program.solve();
 }
 
 }  // namespace toile

@@ -3,10 +3,13 @@
 // the allowed stretch.
 //
 // Unknown: z_pS, panel p takes set S; y_k, job k is done.  Minimise
-//   sum_k cost_k y_k  +  sum z_pS (burden_S + prices of the stretch and the lean it leaves)  +  sum_m slack_m  such
-//   that every panel takes one set;  z_pS <= y_k for the jobs k of S sides are cut into at most Theta times, by S
-//   itself (Eq. 3) what opens one ply of a seam opens the other ply at the same place (Eq. 4), or pays for not doing so
+//   sum_k cost_k y_k  +  sum z_pS (burden_S + prices of the stretch and the lean it leaves)  +  sum_m slack_m
+// such that
+//   every panel takes one set;  z_pS <= y_k for the jobs k of S
+//   sides are cut into at most Theta times, by S itself (Eq. 3)
+//   what opens one ply of a seam opens the other ply at the same place (Eq. 4), or pays for not doing so
 //   neighbouring sides let go leave an L (Eq. 5), which costs unless L-shapes are wanted
+//   no more jobs are done than without a price of lean: among equal work cloth that hangs straight
 // The preference for seams, gamma, is what a cut costs beside a seam (Eq. 2).
 // Source: [Eggler2024, Sec. 6.2, Eq. 2-5]; that all tears of a panel are chosen together, every set relaxed for itself,
 // and jobs rather than tears are counted is this project's.

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
        {"sew and drape: [GARMENT...] [growth] [--triangles N] [--body NAME | --other-bodies] [--sheet FILE]",
         bench_drape}},
       {"fabrics", {"textile laboratory: [FABRIC...] [--rings N] [--growth] [--pictures FOLDER]", bench_fabrics}},
-      {"oracle", {"default against Newton: [GARMENT...] [--triangles N] [--frictionless]", bench_oracle}},
+      {"oracle", {"default against Newton: [GARMENT...] [--triangles N] [--frictionless | --finer]", bench_oracle}},
       {"ladder",
        {"which rung of the retry ladder drapes whom: [GARMENT...] [--people N] [--triangles N] [--off METRES]",
         bench_ladder}},
