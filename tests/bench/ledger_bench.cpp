@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // ledger [--slow] [--filter GTEST_FILTER] [PROGRAM...]
 // Every comparison with an exact or independent answer that the tests make: what it tolerates and what was reached.
-// Runs the test programs beside this one (all of them, without their slow suites unless told) and prints for each thing
-// that a test compares the worst of its comparisons.
+// Runs the test programs beside this one (those named, or all of them; without their slow suites unless told) and
+// prints for each thing that a test compares the worst of its comparisons.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,15 +29,16 @@ struct Request {
 
 Request parse(const std::vector<std::string>& words) {
   Request request;
+  const fs::path folder = fs::canonical("/proc/self/exe").parent_path();
   for (std::size_t i = 0; i < words.size(); ++i)
     if (words[i] == "--slow")
       request.filter.clear();
     else if (words[i] == "--filter" && i + 1 < words.size())
       request.filter = words[++i];
     else
-      request.programs.push_back(words[i]);
+      request.programs.push_back(folder / words[i]);
   if (!request.programs.empty()) return request;
-  for (const auto& entry : fs::directory_iterator(fs::canonical("/proc/self/exe").parent_path()))
+  for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().filename().string().starts_with("test_")) request.programs.push_back(entry.path());
   std::sort(request.programs.begin(), request.programs.end());
   return request;
