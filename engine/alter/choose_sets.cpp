@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "engine/core/error.h"
@@ -41,10 +42,10 @@ class Program {
     program_.constraints.push_back(std::move(row));
   }
 
-  ChosenSets solve() const {
+  // Nothing where no choice was found.
+  std::optional<ChosenSets> solve() const {
     const IntegerSolution solution = solve_integer_program(program_);
-    if (!solution.feasible)
-      throw Error(ErrorCode::AlterationFailed, "integer_program", "no choice of tears was found; raise stretch_limit");
+    if (!solution.feasible) return std::nullopt;
     ChosenSets chosen{std::vector<std::size_t>(sets_.size(), 0), -solution.value};
     for (std::size_t p = 0; p < sets_.size(); ++p)
       for (std::size_t s = 0; s < sets_[p].size(); ++s)
@@ -166,10 +167,12 @@ ChosenSets choose_sets(const std::vector<std::vector<TearSet>>& sets, const Tear
                        const std::vector<std::optional<PanelTwin>>& twins, const ChooseSetsOptions& options) {
   ChooseSetsOptions without_lean = options;
   without_lean.lean_price = 0.0;
-  const ChosenSets fewest = Program(sets, units, sheets, partners, twins, without_lean).solve();
+  const auto fewest = Program(sets, units, sheets, partners, twins, without_lean).solve();
+  if (!fewest)
+    throw Error(ErrorCode::AlterationFailed, "integer_program", "no choice of tears was found; raise stretch_limit");
   Program program(sets, units, sheets, partners, twins, options);
-  program.limit_jobs_to(fewest);
-  return program.solve();
+  program.limit_jobs_to(*fewest);
+  return program.solve().value_or(*fewest);
 }
 
 }  // namespace toile

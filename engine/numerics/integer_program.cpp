@@ -13,6 +13,7 @@ namespace toile {
 namespace {
 
 constexpr double kFeasibility = 1e-7;
+constexpr int kMostNodes = 1000;  // of the search; garments need ten
 
 void check(const IntegerProgram& program) {
   const auto refuse = [](const char* what) { throw Error(ErrorCode::AlterationFailed, "integer_program", what); };
@@ -76,6 +77,11 @@ Problem build(const IntegerProgram& program) {
   return problem;
 }
 
+// Ends a search that has looked at too many nodes; seconds instead of nodes would end equal programs differently.
+void count_node(glp_tree* tree, void* nodes) {
+  if (glp_ios_reason(tree) == GLP_ISELECT && ++*static_cast<int*>(nodes) > kMostNodes) glp_ios_terminate(tree);
+}
+
 }  // namespace
 
 bool is_feasible(const IntegerProgram& program, const std::vector<bool>& chosen) {
@@ -103,9 +109,12 @@ IntegerSolution solve_integer_program(const IntegerProgram& program) {
   glp_init_iocp(&parameters);
   parameters.presolve = GLP_ON;
   parameters.msg_lev = GLP_MSG_OFF;
+  int nodes = 0;
+  parameters.cb_func = count_node;
+  parameters.cb_info = &nodes;
   const int code = glp_intopt(problem.get(), &parameters);
   const int status = glp_mip_status(problem.get());
-  if (code != 0 || (status != GLP_OPT && status != GLP_FEAS)) return solution;
+  if ((code != 0 && code != GLP_ESTOP) || (status != GLP_OPT && status != GLP_FEAS)) return solution;
   for (std::size_t j = 0; j < program.weights.size(); ++j) {
     const bool on = glp_mip_col_val(problem.get(), static_cast<int>(j) + 1) > 0.5;
     solution.chosen.push_back(on);

@@ -21,8 +21,8 @@ struct IntegerProgram {
 };
 
 struct IntegerSolution {
-  bool feasible = false;
-  bool optimal = false;      // proved; false when the time limit ended the search with a feasible answer
+  bool feasible = false;     // false also when the search was ended before it found an answer
+  bool optimal = false;      // proved; false when the search was ended (after 1,000 nodes) with a feasible answer
   std::vector<bool> chosen;  // one per variable; empty when not feasible
   double value = 0.0;        // w.x
 };

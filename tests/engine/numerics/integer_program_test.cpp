@@ -75,6 +75,24 @@ TEST(IntegerProgram, SaysWhenNothingIsFeasible) {
   EXPECT_FALSE(solve_integer_program(program).feasible);
 }
 
+// Twice any number of things is not odd: without the last variable, which costs, every branch looks open to the end.
+TEST(IntegerProgram, EndsASearchThatGrowsBeyondMeasure) {
+  constexpr int kThings = 40;
+  IntegerProgram program;
+  IntegerConstraint odd{{}, kThings + 1, kThings + 1};
+  for (int i = 0; i < kThings; ++i) {
+    program.weights.push_back(0.0);
+    odd.terms.emplace_back(i, 2.0);
+  }
+  program.weights.push_back(-1.0);
+  odd.terms.emplace_back(kThings, 1.0);
+  program.constraints = {odd};
+  const IntegerSolution solution = solve_integer_program(program), again = solve_integer_program(program);
+  EXPECT_FALSE(solution.optimal);
+  EXPECT_EQ(solution.feasible, !solution.chosen.empty());
+  EXPECT_EQ(solution.chosen, again.chosen);
+}
+
 TEST(IntegerProgram, RefusesWhatIsNotFiniteOrOutOfRange) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(solve_integer_program({{1.0, nan}, {}}), Error);
