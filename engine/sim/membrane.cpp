@@ -4,11 +4,12 @@
 namespace toile {
 namespace {
 
+// Everything here is inlined, so that a block stays in registers from its corners to its forces.
 struct Vector3Lanes {
   Lanes x, y, z;
 };
 
-Vector3Lanes corner(const TriangleBlock& block, std::size_t k, const double* nodes) {
+[[gnu::always_inline]] inline Vector3Lanes corner(const TriangleBlock& block, std::size_t k, const double* nodes) {
   Vector3Lanes v;
   for (std::size_t l = 0; l < kLanes; ++l) {
     const double* p = nodes + 3 * static_cast<std::ptrdiff_t>(block.node[k][l]);
@@ -18,17 +19,19 @@ Vector3Lanes corner(const TriangleBlock& block, std::size_t k, const double* nod
   return v;
 }
 
-Vector3Lanes operator-(const Vector3Lanes& a, const Vector3Lanes& b) {
+[[gnu::always_inline]] inline Vector3Lanes operator-(const Vector3Lanes& a, const Vector3Lanes& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-Vector3Lanes combine(const Lanes& s, const Vector3Lanes& a, const Lanes& t, const Vector3Lanes& b) {
+[[gnu::always_inline]] inline Vector3Lanes combine(const Lanes& s, const Vector3Lanes& a, const Lanes& t,
+                                                   const Vector3Lanes& b) {
   return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.z + t * b.z};
 }
-Lanes dot(const Vector3Lanes& a, const Vector3Lanes& b) {
+[[gnu::always_inline]] inline Lanes dot(const Vector3Lanes& a, const Vector3Lanes& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-void scatter(const TriangleBlock& block, std::size_t k, const Vector3Lanes& force, double* gradient) {
+[[gnu::always_inline]] inline void scatter(const TriangleBlock& block, std::size_t k, const Vector3Lanes& force,
+                                           double* gradient) {
   for (std::size_t l = 0; l < kLanes; ++l) {
     double* g = gradient + 3 * static_cast<std::ptrdiff_t>(block.node[k][l]);
     const auto i = static_cast<Eigen::Index>(l);
@@ -37,14 +40,14 @@ void scatter(const TriangleBlock& block, std::size_t k, const Vector3Lanes& forc
 }
 
 // Energy per area of one block and dE/dF per area, in place of (fu, fv).
-Lanes stress(const Fabric& fabric, Vector3Lanes& fu, Vector3Lanes& fv) {
+[[gnu::always_inline]] inline Lanes stress(const Fabric& fabric, Vector3Lanes& fu, Vector3Lanes& fv) {
   const double ku = fabric.weft_stiffness, kv = fabric.warp_stiffness, ks = fabric.shear_stiffness;
   const Lanes uu = dot(fu, fu), vv = dot(fv, fv), uv = dot(fu, fv);
   const Lanes lu = (uu + kMembraneLeastLengthSquared).sqrt(), lv = (vv + kMembraneLeastLengthSquared).sqrt();
   const Lanes d = ((uu * vv - uv * uv).max(0.0) + kMembraneCollapse).sqrt();
   const Lanes trace = (uu + vv + 2 * d).sqrt();  // of the stretch tensor of the polar decomposition
-  const Lanes s = ks / trace, cross = s * uv / d;
-  const Lanes pu = ku * (1 - 1 / lu) + ks - s * (1 + vv / d), pv = kv * (1 - 1 / lv) + ks - s * (1 + uu / d);
+  const Lanes s = ks / trace, s_by_d = s / d, cross = s_by_d * uv;
+  const Lanes pu = ku * (1 - 1 / lu) + ks - s - s_by_d * vv, pv = kv * (1 - 1 / lv) + ks - s - s_by_d * uu;
   const Vector3Lanes stress_u = combine(pu, fu, cross, fv), stress_v = combine(pv, fv, cross, fu);
   fu = stress_u, fv = stress_v;
   return 0.5 * (ku * (lu - 1).square() + kv * (lv - 1).square() + ks * (uu + vv + 2 - 2 * trace));

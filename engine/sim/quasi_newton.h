@@ -48,7 +48,18 @@ class QuasiNewton {
 
  private:
   template <class Work>
-  double halves(const Work& work);  // sum of work(first row, rows) over both
+  void halves(const Work& work);  // work(half, first element, end) of both
+  template <class Term>
+  double sum_of(const Term& term);  // term(element) over all
+  // Pairs are kept in single precision: they only shape the steps, and reading them is much of a step's cost.
+  using Pairs = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  template <class Scalar>
+  void look_along(const std::vector<Pairs>& pairs, const Scalar* vector);
+  void add_pairs(const std::vector<Pairs>& pairs, double sign, Points3& vector);
+  std::size_t slot(int pair) const { return static_cast<std::size_t>((first_ + pair) % options_.memory); }
+  double product(int older, int newer) const {
+    return products_(static_cast<Eigen::Index>(slot(older)), static_cast<Eigen::Index>(slot(newer)));
+  }
   void find_direction(RowSolver& matrix);
   double longest_move();
   bool search_line(const Energy& energy);
@@ -57,13 +68,13 @@ class QuasiNewton {
   QuasiNewtonOptions options_;
   Limit limit_;
   Helper* helper_ = nullptr;
-  // Pairs are kept in single precision: they only shape the steps, and reading them is much of a step's cost.
-  using Pairs = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
   Points3 nodes_, gradient_, trial_, trial_gradient_, direction_, right_;
   std::vector<Pairs> moves_, changes_;
-  std::vector<double> inverse_curvature_, weight_;
-  int first_ = 0, count_ = 0;  // of the ring of pairs
+  Eigen::MatrixXd products_;       // of an older pair's move with a newer one's change, by slots
+  Eigen::VectorXd weight_, seen_;  // of the pairs from the oldest on
+  Eigen::MatrixX2d along_;         // seen_ of either half
+  int first_ = 0, count_ = 0;      // of the ring of pairs
   double energy_ = 0;
   int evaluations_ = 0;
 };

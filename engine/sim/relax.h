@@ -22,8 +22,9 @@ struct RelaxOptions {
   double settled_everywhere = 3.0;        // the same of all nodes
   double settled_move = 0.0005;           // m a watched line may move over a round and still count as settled
   // Cloth that swings along a soft valley has next to no residual: the moves of the last two rounds, continued as a
-  // geometric series, must come to less (m, root mean square of the nodes) before it is left at that.
-  double settled_swing = 0.002;
+  // geometric series, must come to less (m, root mean square of the nodes) before it is left at that. The series may
+  // be too short by half: 2.3 mm were left of a dress for which it said less than 2.
+  double settled_swing = 0.001;
   double stop_settled = 0.0;              // the same residual below which a settled drape is left at that; 0: never
   int least_iterations = 300;             // before it may count as settled: below, even placement is not settled
   std::vector<std::vector<int>> watched;  // lines of nodes whose mean position tells whether the garment still moves
