@@ -31,7 +31,7 @@ struct JobError {
 struct NewJob {
   std::string tenant;
   std::string kind;
-  std::map<std::string, std::string> inputs;  // role ("garment", "reference_body", "target_body") -> input id
+  std::map<std::string, std::string> inputs;  // role (garment, worn, reference_body, target_body) -> id
   std::string options = "{}";                 // JSON object
   std::vector<std::string> labels;
   std::optional<std::string> webhook;  // URL told of the end

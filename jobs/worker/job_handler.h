@@ -21,7 +21,7 @@ struct JobInput {
 using ArtifactSink = std::function<void(const std::string& name, const std::string& content_type, const Bytes& bytes)>;
 
 struct JobContext {
-  std::map<std::string, JobInput> inputs;  // by role: garment, reference_body, target_body
+  std::map<std::string, JobInput> inputs;  // by role: garment, worn, reference_body, target_body
   std::string options = "{}";              // JSON, validated when the job was handed in
   std::int64_t created_ms = 0;             // dates in outputs come from here, not from the clock
   int threads = 1;

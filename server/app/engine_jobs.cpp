@@ -53,6 +53,12 @@ GarmentInput garment_input(const JobInput& given) {
   return garment;
 }
 
+GarmentInput garment_of(const JobContext& context) {
+  GarmentInput garment = garment_input(context.inputs.at("garment"));
+  if (const auto worn = context.inputs.find("worn"); worn != context.inputs.end()) garment.worn = worn->second.bytes;
+  return garment;
+}
+
 // Hands the files over; the report quotes the result and the clocks.
 JobReport hand_over(const JobContext& context, std::vector<OutputFile> files, const std::vector<StageTiming>& timings) {
   files.push_back(timings_output(timings));
@@ -75,7 +81,7 @@ JobReport hand_over(const JobContext& context, std::vector<OutputFile> files, co
 
 JobReport alter_job(const JobContext& context) {
   const AlterOptions options = read_options(bytes_of(context.options));
-  const GarmentInput garment = garment_input(context.inputs.at("garment"));
+  const GarmentInput garment = garment_of(context);
   const BodyInput reference = body_input(context.inputs.at("reference_body"));
   const BodyInput target = body_input(context.inputs.at("target_body"));
   StageRunner runner(context.stages, context.progress, kAlterStages, context.threads);
@@ -86,7 +92,7 @@ JobReport alter_job(const JobContext& context) {
 
 JobReport drape_job(const JobContext& context) {
   const AlterOptions options = read_options(bytes_of(context.options));
-  const GarmentInput garment = garment_input(context.inputs.at("garment"));
+  const GarmentInput garment = garment_of(context);
   const BodyInput body = body_input(context.inputs.at("reference_body"));
   StageRunner runner(context.stages, context.progress, kDrapeStages, context.threads);
   const auto draped = drape_garment(garment, body, options, runner);

@@ -6,8 +6,8 @@
 
 namespace toile::app {
 
-JobReport alter_job(const JobContext& context);  // roles garment, reference_body, target_body
-JobReport drape_job(const JobContext& context);  // roles garment, reference_body
+JobReport alter_job(const JobContext& context);  // roles garment, reference_body, target_body; may have worn
+JobReport drape_job(const JobContext& context);  // roles garment, reference_body; may have worn
 
 // Import alone: refuses what no job could use; the summary says what was found. One input, of role "input".
 JobReport inspect_body_job(const JobContext& context);

@@ -47,6 +47,7 @@ std::vector<std::string> bodies_of(const Service& service, const std::string& te
 
 struct BatchRequest {
   Batch batch;
+  std::optional<std::string> worn;
   std::vector<std::string> bodies;
   std::optional<std::string> webhook;
 };
@@ -58,6 +59,11 @@ BatchRequest read_batch(const Service& service, const std::string& tenant, const
   request.batch.garment = required_text(document, "garment");
   if (!service.store.inputs.find(tenant, InputKind::Garment, request.batch.garment))
     throw invalid("/garment", "no garment with this id: upload it first");
+  if (document.contains("worn")) {
+    request.worn = required_text(document, "worn");
+    if (!service.store.inputs.find(tenant, InputKind::Garment, *request.worn))
+      throw invalid("/worn", "no garment with this id: upload it first");
+  }
   request.batch.reference_body = required_text(document, "reference_body");
   if (!service.store.inputs.find(tenant, InputKind::Body, *request.batch.reference_body))
     throw invalid("/reference_body", "no body with this id: upload it first");
@@ -78,6 +84,7 @@ std::string store_batch(Service& service, Transaction& transaction, const BatchR
     job.kind = "alter";
     job.inputs = {
         {"garment", request.batch.garment}, {"reference_body", *request.batch.reference_body}, {"target_body", body}};
+    if (request.worn) job.inputs["worn"] = *request.worn;
     job.options = request.batch.options;
     job.labels = request.batch.labels;
     job.webhook = request.webhook;

@@ -86,7 +86,7 @@ ordered_json job_document(const Job& job) {
                            {"progress", job.progress},
                            {"attempt", job.attempt},
                            {"cancel_requested", job.cancel_requested}};
-  for (const char* role : {"garment", "reference_body", "target_body"}) {
+  for (const char* role : {"garment", "worn", "reference_body", "target_body"}) {
     const auto found = job.inputs.find(role);
     document[role] = found == job.inputs.end() ? ordered_json() : ordered_json(found->second);
   }

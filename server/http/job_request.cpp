@@ -48,6 +48,7 @@ NewJob read_job_request(const Service& service, const std::string& tenant, const
   if (!service.options.kinds.contains(job.kind))
     throw invalid("/kind", "unknown kind of job; this server does: alter, drape");
   require_input(service, tenant, InputKind::Garment, document, "garment", job);
+  if (document.contains("worn")) require_input(service, tenant, InputKind::Garment, document, "worn", job);
   require_input(service, tenant, InputKind::Body, document, "reference_body", job);
   if (job.kind != "drape" || document.contains("target_body"))
     require_input(service, tenant, InputKind::Body, document, "target_body", job);
