@@ -14,31 +14,28 @@ std::set<std::pair<std::string, std::string>> in_flight;  // tenant and key
 
 }  // namespace
 
+KeyInFlight::KeyInFlight(const std::string& tenant, const std::string& key) : names_(tenant, key) {
+  const std::lock_guard lock(in_flight_lock);
+  if (!in_flight.insert(names_).second)
+    throw Problem{
+        409, "conflict", "a request with this Idempotency-Key is being worked on", {}, {{"Retry-After", "1"}}};
+}
+
+KeyInFlight::~KeyInFlight() {
+  const std::lock_guard lock(in_flight_lock);
+  in_flight.erase(names_);
+}
+
 Idempotency::Idempotency(Service& service, const Request& request, const std::string& payload)
     : service_(service), tenant_(request.tenant), key_(request.header("Idempotency-Key")) {
   if (key_.empty()) return;
   if (key_.size() > kMaxKeyBytes)
     throw Problem{400, "bad_usage", "an Idempotency-Key has at most 255 characters", {}, {}};
   hash_ = ContentHash().add(std::string_view(request.path)).add(std::string_view(payload)).hex();
-  {
-    const std::lock_guard lock(in_flight_lock);
-    if (!in_flight.emplace(tenant_, key_).second)
-      throw Problem{
-          409, "conflict", "a request with this Idempotency-Key is being worked on", {}, {{"Retry-After", "1"}}};
-    held_ = true;
-  }
+  held_.emplace(tenant_, key_);
   remembered_ = recall_request(service.store.database, tenant_, key_);
-  if (remembered_ && remembered_->request_hash != hash_) {
-    const std::lock_guard lock(in_flight_lock);
-    in_flight.erase({tenant_, key_});
+  if (remembered_ && remembered_->request_hash != hash_)
     throw Problem{422, "conflict", "this Idempotency-Key was used for another request", {}, {}};
-  }
-}
-
-Idempotency::~Idempotency() {
-  if (!held_) return;
-  const std::lock_guard lock(in_flight_lock);
-  in_flight.erase({tenant_, key_});
 }
 
 void Idempotency::remember(Transaction& transaction, int status, const std::string& resource) const {

@@ -7,14 +7,24 @@
 
 namespace toile::http {
 
+// A key that is being worked on, until the end of its scope, however that is left. Throws Problem 409 when it is
+// already.
+class KeyInFlight {
+ public:
+  KeyInFlight(const std::string& tenant, const std::string& key);
+  ~KeyInFlight();
+  KeyInFlight(const KeyInFlight&) = delete;
+  KeyInFlight& operator=(const KeyInFlight&) = delete;
+
+ private:
+  std::pair<std::string, std::string> names_;
+};
+
 // Holds the key while the request is worked on. Throws Problem: 400 bad key, 409 the same key is being worked on now,
 // 422 the key was used for another payload.
 class Idempotency {
  public:
   Idempotency(Service& service, const Request& request, const std::string& payload);
-  ~Idempotency();
-  Idempotency(const Idempotency&) = delete;
-  Idempotency& operator=(const Idempotency&) = delete;
 
   // What the first request with this key made.
   const std::optional<RememberedRequest>& remembered() const { return remembered_; }
@@ -24,7 +34,7 @@ class Idempotency {
  private:
   Service& service_;
   std::string tenant_, key_, hash_;
-  bool held_ = false;
+  std::optional<KeyInFlight> held_;
   std::optional<RememberedRequest> remembered_;
 };
 

@@ -18,6 +18,16 @@ second=$(submit write '{"bytes":17}' "${key[@]}" | field .id)
 expect "a repeated request" "$second" "$first"
 expect "another payload under the same key" "$(submit write '{"bytes":18}' "${key[@]}" -o /dev/null -w '%{http_code}')" 422
 
+# A key whose first request still waits for its job.
+submit sleep "{\"until\":\"$work/on\"}" -H "Idempotency-Key: order-19" -H 'Prefer: wait=60' > "$work/waited" &
+first=$!
+for _ in $(seq 600); do [ "$(get '/v1/jobs?state=running' | field '.items | length')" = 1 ] && break; sleep 0.1; done
+expect "a key in flight" "$(submit sleep "{\"until\":\"$work/on\"}" -H "Idempotency-Key: order-19" -o /dev/null -w '%{http_code}')" 409
+touch "$work/on"
+wait "$first"
+expect "the first request with it" "$(field .state < "$work/waited")" succeeded
+expect "the key afterwards" "$(submit sleep "{\"until\":\"$work/on\"}" -H "Idempotency-Key: order-19" | field .id)" "$(field .id < "$work/waited")"
+
 artifact=$url/v1/jobs/$id/artifacts/filler.bin
 tag=$(curl -sSI "$artifact" | tr -d '\r' | sed -n 's/^ETag: //p')
 expect "the ETag" "$tag" "\"$(curl -sS "$artifact" | sha256sum | cut -d' ' -f1)\""
