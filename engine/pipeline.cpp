@@ -15,7 +15,7 @@ Keyed<Pattern> take_in(const GarmentInput& garment, StageRunner& runner) {
 }
 
 Keyed<Body> take_in(const BodyInput& body, StageRunner& runner) {
-  return runner.run("import_body", 8, input_key(body), [&] { return read_body(body); });
+  return runner.run("import_body", 9, input_key(body), [&] { return read_body(body); });
 }
 
 Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>& pattern, const Keyed<Body>& wearer,
@@ -74,7 +74,8 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
         return std::pair(std::move(taken_in), take_in(reference_body, part));
       },
       [&](StageRunner& part) {
-        return part.run("import_target_body", 9, input_key(target_body), [&] { return read_target_body(target_body); });
+        return part.run("import_target_body", 10, input_key(target_body),
+                        [&] { return read_target_body(target_body); });
       });
   Body target = imported.value.body;
   auto [reference, found] = runner.run_both(
@@ -82,6 +83,7 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
       [&](StageRunner& part) {
         return part.run("register_bodies", 12, key_of(input_key(reference_body), imported.key), [&] {
           const Landmarks given = given_landmarks(target_body, target.normalised_from_file);
+          require_known(target_body, given, original.second.value);
           return register_bodies(original.second.value, imported.value.seen(), {.target_landmarks = given},
                                  part.progress());
         });

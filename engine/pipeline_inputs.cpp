@@ -2,10 +2,12 @@
 #include "engine/pipeline_inputs.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "engine/core/content_hash.h"
 #include "engine/core/error.h"
 #include "engine/io/body_json.h"
+#include "engine/io/json.h"
 #include "engine/io/worn_garment.h"
 #include "engine/stages/build_fitting_map.h"
 #include "engine/stages/find_skeleton.h"
@@ -72,14 +74,43 @@ ImportBodyResult made(Body body) {
   return result;
 }
 
+// What belongs to an OBJ must not be passed over in silence beside a specification.
+void require_obj(const GarmentInput& garment) {
+  const char* given = garment.metre_per_uv_unit                    ? "uv_unit"
+                      : !garment.sidecar.empty()                   ? "seams"
+                      : garment.keep_drape && garment.worn.empty() ? "keep_drape"
+                                                                   : nullptr;
+  if (given)
+    throw Error(ErrorCode::OptionInvalid, garment.name,
+                std::string(given) + " is for a garment as OBJ, this one is a specification; leave " + given + " out");
+}
+
 ImportedGarment take_in_garment(const GarmentInput& garment) {
+  if (looks_like_json(garment.bytes)) require_obj(garment);
   try {
     return import_garment(garment.bytes, garment.name, {garment.metre_per_uv_unit, garment.sidecar});
   } catch (const Error& error) {
     // The file, then the place in it where there is one.
     if (error.subject == "garment") throw Error(error.code, garment.name, error.message);
     if (!error.subject.starts_with('/')) throw;
-    throw Error(error.code, garment.name + "#" + error.subject, error.message);
+    const bool of_sidecar = !garment.sidecar.empty() && !error.subject.starts_with("/pattern/");
+    throw Error(error.code, garment.name + (of_sidecar ? " seams#" : "#") + error.subject, error.message);
+  }
+}
+
+constexpr double kFarFromBody = 0.3;  // m outside the body's box that no landmark lies
+
+void require_near(const BodyInput& input, const Landmarks& given, const TriangleMesh& surface) {
+  const Vec3 low = surface.vertices.colwise().minCoeff(), high = surface.vertices.colwise().maxCoeff();
+  for (const auto& [name, point] : given) {
+    const double off = std::max((low - point).maxCoeff(), (point - high).maxCoeff());
+    if (off <= kFarFromBody) continue;
+    char metres[32];
+    std::snprintf(metres, sizeof metres, "%.2g m", off);
+    throw Error(ErrorCode::BodyUnusable, input.name + " landmarks",
+                name + " lies " + metres +
+                    " away from the body; \"landmarks\" are in the frame and unit of the body's " +
+                    "file, \"landmarks_m\" in the normalised frame in metres");
   }
 }
 
@@ -158,12 +189,26 @@ Landmarks given_landmarks(const BodyInput& input, const Mat4& normalised_from_fi
 }
 
 ImportBodyResult take_in_body(const BodyInput& input, Progress* progress) {
-  if (input.name.starts_with(kBuiltin)) return made(make_builtin(input.name));
-  if (looks_like_json(input.bytes)) return made(make_measured(input));
-  ImportBodyResult result = import_body(input.bytes, input.name, input.import, progress);
-  result.body.landmarks = given_landmarks(input, result.body.normalised_from_file);
-  if (result.body.kind == BodyKind::Human) measure(result.body);
+  const bool builtin = input.name.starts_with(kBuiltin);
+  const bool mesh = !builtin && !looks_like_json(input.bytes);
+  ImportBodyResult result = mesh ? import_body(input.bytes, input.name, input.import, progress)
+                                 : made(builtin ? make_builtin(input.name) : make_measured(input));
+  const Landmarks given = given_landmarks(input, result.body.normalised_from_file);
+  require_near(input, given, result.body.surface);
+  for (const auto& [name, point] : given) result.body.landmarks[name] = point;
+  if (mesh && result.body.kind == BodyKind::Human) measure(result.body);
   return result;
+}
+
+void require_known(const BodyInput& input, const Landmarks& given, const Body& reference) {
+  if (reference.landmarks.empty()) return;
+  for (const auto& [name, point] : given) {
+    if (reference.landmarks.contains(name)) continue;
+    std::string known;
+    for (const auto& [other, place] : reference.landmarks) known += (known.empty() ? "" : ", ") + other;
+    throw Error(ErrorCode::BodyUnusable, input.name + " landmarks",
+                "the reference body has no landmark \"" + name + "\"; it has " + known);
+  }
 }
 
 }  // namespace toile

@@ -58,5 +58,7 @@ ImportBodyResult take_in_body(const BodyInput& body, Progress* progress = nullpt
 
 // The landmarks handed in with a body, in its normalised frame; empty if there were none.
 Landmarks given_landmarks(const BodyInput& input, const Mat4& normalised_from_file);
+// Throws Error{BodyUnusable} for one that the reference body does not have: it could not be used. A form has none.
+void require_known(const BodyInput& input, const Landmarks& given, const Body& reference);
 
 }  // namespace toile

@@ -79,13 +79,10 @@ Landmarks normalised_landmarks(const GivenLandmarks& given, const Mat4& normalis
   return points;
 }
 
-bool looks_like_json(std::span<const std::uint8_t> bytes) {
-  const auto first = std::find_if(bytes.begin(), bytes.end(), [](std::uint8_t c) { return c > ' '; });
-  return first != bytes.end() && *first == '{';
-}
-
 MeasurementsDocument read_measurements(std::span<const std::uint8_t> bytes, const std::string& subject) {
   return read_document(bytes, subject, [](const JsonView& root) {
+    if (root.find("pattern"))
+      root.fail("this is a garment; a body is a mesh, or tape measures as {\"measurements_cm\": {\"height\": 168}}");
     root.require_only({"schema", "figure", "measurements_m", "measurements_cm"});
     MeasurementsDocument document;
     if (const auto figure = root.find("figure")) document.figure = figure->text();

@@ -30,8 +30,6 @@ struct MeasurementsDocument {
   Measurements measurements;  // m
   std::string figure;
 };
-// Whether the bytes can only be such a document: JSON instead of a mesh.
-bool looks_like_json(std::span<const std::uint8_t> bytes);
 // Throws FileMalformed, LimitExceeded.
 MeasurementsDocument read_measurements(std::span<const std::uint8_t> bytes, const std::string& subject);
 

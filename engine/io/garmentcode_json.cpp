@@ -19,9 +19,23 @@ constexpr double kMaxRelativeParameter = 1e4;
 constexpr double kMaxArcRadius = 1e4;  // m; flatter arcs are lines in all but name
 constexpr std::size_t kMaxPolylinePoints = 100'000;
 
+constexpr std::size_t kNamesTold = 5;
+
+// Where the panels are; a document without says what it is instead.
+JsonView pattern_of(const JsonView& root) {
+  if (const auto pattern = root.find("pattern")) return *pattern;
+  std::string found;
+  const auto members = root.members();
+  for (std::size_t i = 0; i < std::min(kNamesTold, members.size()); ++i)
+    found += (i > 0 ? ", \"" : " \"") + members[i].first + "\"";
+  root.fail("this is no garment: a GarmentCode specification has its panels in a member \"pattern\", here " +
+            (members.empty() ? "is nothing" : "are" + found + (members.size() > kNamesTold ? " and others" : "")) +
+            "; give the file that GarmentCode calls NAME_specification.json");
+}
+
 class SpecificationReader {
  public:
-  explicit SpecificationReader(const JsonView& root) : root_(root), body_(root.at("pattern")) {
+  explicit SpecificationReader(const JsonView& root) : root_(root), body_(pattern_of(root)) {
     if (const auto properties = root.find("properties")) {
       if (const auto units = properties->find("units_in_meter")) unit_ = 1.0 / units->number(1e-3, 1e5);
       if (const auto coordinates = properties->find("curvature_coords"))

@@ -93,6 +93,11 @@ class LimitScan {
 
 }  // namespace
 
+bool looks_like_json(std::span<const std::uint8_t> bytes) {
+  const auto first = std::find_if(bytes.begin(), bytes.end(), [](std::uint8_t c) { return c > ' '; });
+  return first != bytes.end() && (*first == '{' || *first == '[');
+}
+
 json parse_json(std::span<const std::uint8_t> bytes, const std::string& subject) {
   if (bytes.size() > kMaxJsonBytes)
     throw Error(ErrorCode::LimitExceeded, subject, "JSON documents may have at most 64 MiB; send a smaller one");

@@ -25,6 +25,9 @@ inline constexpr std::size_t kMaxJsonValues = 1'000'000;  // bounds the memory o
 inline constexpr std::size_t kMaxJsonText = 1u << 20;     // bytes of one string, quotes and escapes included
 inline constexpr std::size_t kMaxJsonBytes = 64u << 20;
 
+// Whether the first character that is no white space begins an object or an array; not for an empty file.
+bool looks_like_json(std::span<const std::uint8_t> bytes);
+
 // Throws Error{FileMalformed} with line and column, Error{LimitExceeded} for depth or size.
 nlohmann::json parse_json(std::span<const std::uint8_t> bytes, const std::string& subject);
 

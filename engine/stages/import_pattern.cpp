@@ -7,6 +7,7 @@
 
 #include "engine/geometry/curve.h"
 #include "engine/io/garmentcode_json.h"
+#include "engine/io/json.h"
 #include "engine/io/obj_garment.h"
 #include "engine/stages/outline_crossing.h"
 
@@ -14,14 +15,8 @@ namespace toile {
 
 namespace {
 
-std::string escaped(const std::string& key) {
-  std::string step;
-  for (const char c : key) step += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  return step;
-}
-
 std::string panel_pointer(const Panel& panel) {
-  return "/pattern/panels/" + escaped(panel.name);
+  return "/pattern/panels" + pointer_step(panel.name);
 }
 std::string edge_pointer(const Panel& panel, int edge) {
   return panel_pointer(panel) + "/edges/" + std::to_string(edge);
@@ -110,9 +105,8 @@ void check_seams(const Pattern& pattern) {
   }
 }
 
-bool looks_like_json(std::span<const std::uint8_t> bytes) {
-  const auto first = std::find_if(bytes.begin(), bytes.end(), [](std::uint8_t c) { return c > ' '; });
-  return first == bytes.end() || *first == '{' || *first == '[';
+bool is_blank(std::span<const std::uint8_t> bytes) {
+  return std::all_of(bytes.begin(), bytes.end(), [](std::uint8_t c) { return c <= ' '; });
 }
 
 }  // namespace
@@ -137,6 +131,7 @@ Pattern import_pattern(std::span<const std::uint8_t> bytes, Progress* progress) 
 
 ImportedGarment import_garment(std::span<const std::uint8_t> bytes, const std::string& name,
                                const ImportGarmentOptions& options, Progress* progress) {
+  if (is_blank(bytes)) throw Error(ErrorCode::FileMalformed, name, "the file is empty; export the garment again");
   if (looks_like_json(bytes)) return {import_pattern(bytes, progress), {}, {}};
   report(progress, "import_pattern", 0.0);
   ObjGarment garment = read_obj_garment(bytes, name, {options.metre_per_uv_unit, options.sidecar});

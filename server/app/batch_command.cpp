@@ -38,23 +38,43 @@ bool is_body_file(const fs::path& path) {
   return extension == ".obj" || extension == ".ply" || extension == ".stl" || extension == ".json";
 }
 
-// The bodies of a folder by name, or the lines of a list (files relative to it, or builtin:NAME).
-std::vector<std::string> bodies_of(const std::string& source) {
+std::vector<std::string> bodies_in_folder(const std::string& folder) {
+  std::error_code failed;
   std::vector<std::string> bodies;
-  if (fs::is_directory(source)) {
-    for (const auto& entry : fs::directory_iterator(source))
-      if (is_body_file(entry.path())) bodies.push_back(entry.path().string());
-    std::sort(bodies.begin(), bodies.end());
-  } else {
-    const Bytes bytes = read_file(source);
-    std::istringstream lines(std::string(bytes.begin(), bytes.end()));
-    for (std::string line; std::getline(lines, line);) {
-      if (!line.empty() && line.back() == '\r') line.pop_back();
-      if (line.empty() || line.front() == '#') continue;
-      const bool plain = line.starts_with("builtin:") || fs::path(line).is_absolute();
-      bodies.push_back(plain ? line : (fs::path(source).parent_path() / line).string());
-    }
+  for (const auto& entry : fs::directory_iterator(folder, failed))
+    if (is_body_file(entry.path())) bodies.push_back(entry.path().string());
+  if (failed)
+    throw Error(ErrorCode::FileUnreadable, "--target-bodies " + folder,
+                "cannot be read: " + failed.message() + "; check its permissions");
+  std::sort(bodies.begin(), bodies.end());
+  // JSON beside a mesh of the same name tells of it and is no further body.
+  std::erase_if(bodies, [](const fs::path& body) {
+    const auto has = [&](const char* extension) { return fs::exists(fs::path(body).replace_extension(extension)); };
+    return body.extension() == ".json" && (has(".obj") || has(".ply") || has(".stl"));
+  });
+  return bodies;
+}
+
+std::vector<std::string> bodies_in_list(const std::string& list) {
+  const Bytes bytes = read_file(list);
+  std::istringstream lines(std::string(bytes.begin(), bytes.end()));
+  std::vector<std::string> bodies;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (line.empty() || line.front() == '#') continue;
+    const bool plain = line.starts_with(kBuiltin) || fs::path(line).is_absolute();
+    bodies.push_back(plain ? line : (fs::path(list).parent_path() / line).string());
   }
+  return bodies;
+}
+
+// The bodies of a folder by name, the lines of a list (files relative to it, or builtin:NAME), or the one body named.
+std::vector<std::string> bodies_of(const std::string& source) {
+  if (source.starts_with(kBuiltin)) return {source};
+  std::error_code unknown;
+  const bool folder = fs::is_directory(source, unknown);
+  if (!folder && is_body_file(source)) return {source};
+  std::vector<std::string> bodies = folder ? bodies_in_folder(source) : bodies_in_list(source);
   if (bodies.empty())
     throw Error(ErrorCode::BadUsage, "--target-bodies",
                 "no body in " + source + ": give a folder of OBJ, PLY or STL files, or a list");
@@ -63,7 +83,7 @@ std::vector<std::string> bodies_of(const std::string& source) {
 
 // A folder name no two bodies share.
 std::string folder_of(const std::string& body, std::map<std::string, int>& used) {
-  std::string name = body.starts_with("builtin:") ? body.substr(8) : fs::path(body).stem().string();
+  std::string name = body.starts_with(kBuiltin) ? body.substr(kBuiltin.size()) : fs::path(body).stem().string();
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return c == '/' || c < 32; }, '_');
   const int count = ++used[name];
@@ -167,7 +187,7 @@ void add_batch_command(CLI::App& app, Context& context) {
       ->required();
   command
       ->add_option("--target-bodies", files->target_bodies,
-                   "Bodies it shall fit: a folder of body files, or a text file with one body a line")
+                   "Bodies it shall fit: a folder of body files, a text file with one body a line, or one body")
       ->type_name("FOLDER|FILE")
       ->required();
   command->add_option("--out", files->out, "Folder for the results; made if needed")->type_name("FOLDER")->required();

@@ -60,6 +60,8 @@ Record body_document(const ImportBodyResult& result, const Record& measured) {
 }
 
 void run(const BodyArguments& arguments, Context& context) {
+  if (arguments.file.empty() && arguments.measurements.empty())
+    throw Error(ErrorCode::BadUsage, "toile body", "no body is named; give FILE or --measurements FILE");
   const BodyInput input =
       read_body_input(arguments.file.empty() ? arguments.measurements : arguments.file, arguments.source);
   ImportBodyResult result = take_in_body(input, &context.progress);
@@ -77,10 +79,11 @@ void add_body_command(CLI::App& app, Context& context) {
   CLI::App* command =
       app.add_subcommand("body", "Read a body, repair and measure it; or make one from measurements. Prints JSON");
   command->footer("Example: toile body scan.obj --out body.obj > body.json");
-  CLI::App* from = command->add_option_group("Body", "One of the two must be given");
-  from->require_option(1);
-  from->add_option("FILE", arguments->file, std::string(kBodyHelp) + "; - is standard input")->type_name("BODY");
-  from->add_option("--measurements", arguments->measurements, "Make a body of tape measures (JSON)")->type_name("FILE");
+  CLI::Option* file = command->add_option("FILE", arguments->file, std::string(kBodyHelp) + "; - is standard input");
+  file->type_name("");
+  command->add_option("--measurements", arguments->measurements, "Instead of FILE: make a body of tape measures (JSON)")
+      ->type_name("FILE")
+      ->excludes(file);
   add_body_options(*command, arguments->source);
   command->add_option("--out", arguments->out, "Write the repaired body there: OBJ, metres, standing upright")
       ->type_name("FILE");

@@ -7,12 +7,6 @@
 
 namespace toile::app {
 
-namespace {
-
-constexpr std::string_view kBuiltin = "builtin:";
-
-}  // namespace
-
 ImportBodyOptions import_options(const BodySource& source) {
   ImportBodyOptions options;
   options.kind = source.kind == "form" ? BodyKind::Form : BodyKind::Human;
@@ -33,7 +27,8 @@ void add_body_options(CLI::App& app, BodySource& source) {
   app.add_option("--kind", source.kind, "human, or form: a dress form or any closed upright shape, taken as it stands")
       ->check(CLI::IsMember({"human", "form"}))
       ->capture_default_str();
-  app.add_option("--landmarks", source.landmarks, "Known points of the body, such as crotch or left_wrist (JSON)")
+  app.add_option("--landmarks", source.landmarks,
+                 "Known points of the body, by the names that toile body prints, such as crotch or wrist_l (JSON)")
       ->type_name("FILE");
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +11,7 @@
 
 namespace toile::app {
 
+inline constexpr std::string_view kBuiltin = "builtin:";  // begins the name of a shipped body
 inline constexpr const char* kBodyHelp =
     "a mesh (OBJ, PLY, STL), tape measures (JSON) or a shipped body, builtin:woman-38-168";
 

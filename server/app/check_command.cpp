@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "engine/core/error.h"
+#include "engine/io/json.h"
 #include "engine/io/options_json.h"
 #include "engine/io/schema_check.h"
 #include "engine/stages/import_body.h"
@@ -14,11 +15,6 @@
 namespace toile::app {
 
 namespace {
-
-bool looks_like_json(const Bytes& bytes) {
-  const auto first = std::find_if(bytes.begin(), bytes.end(), [](std::uint8_t c) { return !std::isspace(c); });
-  return first != bytes.end() && (*first == '{' || *first == '[');
-}
 
 // What a schema cannot say: outlines, seams, ranges that hang together.
 void check_contents(const Bytes& bytes, const std::string& schema, Context& context) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <memory>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "engine/core/error.h"
@@ -47,7 +48,8 @@ void prepare_folder(const fs::path& folder) {
 
 Bytes read_file(const std::string& path) {
   if (path == "-") return read_all(stdin, "standard input");
-  if (fs::is_directory(path))
+  std::error_code unknown;  // what cannot even be looked at, fopen tells better
+  if (fs::is_directory(path, unknown))
     throw Error(ErrorCode::FileUnreadable, "file:" + path, "is a folder; name a file inside it");
   const File file(std::fopen(path.c_str(), "rb"), &std::fclose);
   if (!file) {
@@ -60,20 +62,27 @@ Bytes read_file(const std::string& path) {
 void write_file(const fs::path& path, const Bytes& bytes) {
   std::error_code failed;
   if (path.has_parent_path()) fs::create_directories(path.parent_path(), failed);
-  const fs::path part = path.string() + ".part";
-  {
-    File file(std::fopen(part.c_str(), "wb"), &std::fclose);
-    if (!file) cannot_write(path);
-    const bool written =
-        std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() && std::fflush(file.get()) == 0;
-    if (!written) {
-      const int reason = errno;
-      fs::remove(part, failed);
-      errno = reason;
-      cannot_write(path);
-    }
-  }
-  if (std::rename(part.c_str(), path.c_str()) != 0) cannot_write(path);
+  // Into a device, a pipe or what a link leads to; a renamed file would take the place of /dev/null itself.
+  const fs::file_type type = fs::symlink_status(path, failed).type();
+  const bool replaced = type == fs::file_type::regular || type == fs::file_type::not_found;
+  const fs::path part = replaced ? path.string() + ".part" : path.string();
+  std::FILE* file = std::fopen(part.c_str(), "wb");
+  if (!file) cannot_write(path);
+  const bool taken = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  const bool written = std::fclose(file) == 0 && taken;  // some disks tell only now that they are full
+  if (written && (!replaced || std::rename(part.c_str(), path.c_str()) == 0)) return;
+  const int reason = errno;
+  if (replaced) fs::remove(part, failed);
+  errno = reason;
+  cannot_write(path);
+}
+
+void check_standard_output() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  struct stat out {};
+  const bool pipe = ::fstat(STDOUT_FILENO, &out) == 0 && (S_ISFIFO(out.st_mode) || S_ISSOCK(out.st_mode));
+  if (!pipe) cannot_write("standard output");
 }
 
 }  // namespace toile::app

@@ -18,8 +18,12 @@ void prepare_folder(const std::filesystem::path& folder);
 // "-" is standard input. Throws FileUnreadable (no such file, a folder, no permission) and LimitExceeded.
 Bytes read_file(const std::string& path);
 
-// Writes beside and renames, so that a file is there whole or not at all; makes the folder if needed.
-// Throws StorageFull when the disk is, else StorageFailed.
+// Writes beside and renames, so that a file is there whole or not at all; makes the folder if needed. Devices, pipes
+// and links are written into. Throws StorageFull when the disk is, else StorageFailed.
 void write_file(const std::filesystem::path& path, const Bytes& bytes);
+
+// Throws the same when a file behind `>` has not taken all that was printed; a reader that has had enough (`| head`)
+// is no failure.
+void check_standard_output();
 
 }  // namespace toile::app

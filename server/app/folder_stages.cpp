@@ -16,7 +16,8 @@ constexpr std::size_t kHashDigits = 64;  // a file starts with the hash of what 
 }  // namespace
 
 FolderStages::FolderStages(fs::path folder) : folder_(std::move(folder)) {
-  fs::create_directories(folder_);
+  std::error_code error;
+  fs::create_directories(folder_, error);
 }
 
 std::optional<Bytes> FolderStages::get(const std::string& key) {

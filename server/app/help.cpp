@@ -61,4 +61,11 @@ std::string HelpText::make_option_desc(const CLI::Option* option) const {
   return wrapped(text);
 }
 
+std::string HelpText::make_footer(const CLI::App* app) const {
+  if (!app->get_parent()) return CLI::Formatter::make_footer(app);
+  const bool own = app->get_footer() != app->get_parent()->get_footer();
+  return (own ? CLI::Formatter::make_footer(app) : "") +
+         "\ntoile --help tells of --threads, --quiet and --json-log, and of exit codes.\n";
+}
+
 }  // namespace toile::app

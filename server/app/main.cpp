@@ -7,8 +7,10 @@
 
 #include "engine/core/error.h"
 #include "server/app/command.h"
+#include "server/app/files.h"
 #include "server/app/help.h"
 #include "server/app/show_progress.h"
+#include "server/app/usage.h"
 
 namespace {
 
@@ -50,17 +52,12 @@ void add_global_options(CLI::App& app, toile::app::Context& context) {
   };
 }
 
-// The library would only say that a command is missing.
-bool names_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2) {
-    std::fputs(app.help().c_str(), stderr);
-    return false;
-  }
-  const std::string first = argv[1];
-  if (first.starts_with('-')) return true;
-  if (!app.get_subcommands([&](const CLI::App* command) { return command->check_name(first); }).empty()) return true;
-  std::fprintf(stderr, "toile: there is no command \"%s\"; see toile --help\n", first.c_str());
-  return false;
+// Says what is wrong before the library looks at values.
+bool speaks_of_known_things(const CLI::App& app, const std::vector<std::string>& words) {
+  if (words.empty()) std::fputs(app.help().c_str(), stderr);
+  const auto wrong = toile::app::find_wrong_word(app, words);
+  if (wrong) std::fprintf(stderr, "toile: %s\n", wrong->c_str());
+  return !words.empty() && !wrong;
 }
 
 }  // namespace
@@ -79,15 +76,17 @@ int main(int argc, char** argv) {
       "toile COMMAND --help tells what a command takes. Lengths are in the unit their name ends in.\n"
       "Exit codes: 0 done, 2 wrong flags, 3 a file that cannot be used (the message tells where and how to mend it),\n"
       "4 no result (the message tells why), 5 stopped by the user, 70 a defect of Toile.");
+  app.failure_message(app::tell_usage);
   app.require_subcommand(1);
   app.fallthrough();
   app::Context context;
   add_global_options(app, context);
   add_commands(app, context);
-  if (!names_command(app, argc, argv)) return 2;
+  if (!speaks_of_known_things(app, {argv + 1, argv + argc})) return 2;
 
   try {
     app.parse(argc, argv);
+    app::check_standard_output();
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);
     return code == 0 ? 0 : 2;

@@ -56,6 +56,7 @@ void run(const RegisterArguments& arguments, Context& context) {
   Body target = imported.body;
   RegisterBodiesOptions options;
   options.target_landmarks = given_landmarks(target_input, target.normalised_from_file);
+  require_known(target_input, options.target_landmarks, reference);
   options.use_shared_topology = !arguments.find_always;
   RegisterBodiesResult result = register_bodies(reference, imported.seen(), options, &context.progress);
   if (imported.patch_triangles > 0) stand_on_soles(target, result);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "jobs/worker/inspection.h"
@@ -10,6 +8,7 @@
 #include "server/app/command.h"
 #include "server/app/demo.h"
 #include "server/app/engine_jobs.h"
+#include "server/app/files.h"
 #include "server/app/job_kinds.h"
 #include "server/app/json_log.h"
 #include "server/app/settings.h"
@@ -23,11 +22,8 @@ namespace toile::app {
 namespace {
 
 std::string text_of_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(ErrorCode::FileUnreadable, path, "cannot read the file: does it exist, may this user read it?");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  const Bytes bytes = read_file(path);
+  return std::string(bytes.begin(), bytes.end());
 }
 
 http::ServiceOptions service_options(const ServeSettings& settings) {
@@ -50,9 +46,8 @@ http::HubLimits hub_limits(const ServeSettings& settings) {
 
 void tell_port(const ServeSettings& settings, int port) {
   if (settings.port_file.empty()) return;
-  const std::string aside = settings.port_file + ".new";
-  std::ofstream(aside) << port << '\n';
-  std::filesystem::rename(aside, settings.port_file);
+  const std::string line = std::to_string(port) + "\n";
+  write_file(settings.port_file, Bytes(line.begin(), line.end()));
 }
 
 // Uploads get less than jobs do: an import is a matter of seconds.
@@ -114,14 +109,15 @@ void serve(const WorkSettings& work, const ServeSettings& settings, const std::a
         service.metrics.count_refusal(problem.code);
         log("refused", {{"code", problem.code}, {"status", std::to_string(problem.status)}, {"remote", remote}});
       });
-  const int port = server.bind(settings.host, settings.port);
+  const int port = server.bind(settings.host, settings.port);  // connections queue up from here on
+  const std::string url = "http://" + settings.host + ":" + std::to_string(port);
+  tell_port(settings, port);
+  if (settings.demo) tell_demo(store, url);
   WorkerPool pool(store, worker_options(work), log);
   const Sweeper sweeper(store, sweep_options(work), log);
   const auto webhooks = webhook_sender(service, settings);
   std::thread listener([&] { server.run(); });
-  tell_port(settings, port);
-  log("listening", {{"url", "http://" + settings.host + ":" + std::to_string(port)}, {"data", work.data}});
-  if (settings.demo) tell_demo(store, "http://" + settings.host + ":" + std::to_string(port));
+  log("listening", {{"url", url}, {"data", work.data}});
   while (!stop) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   log("draining", {});
   service.stopping = true;

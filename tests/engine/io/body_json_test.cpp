@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/error.h"
+#include "engine/io/json.h"
 #include "engine/io/record_json.h"
 
 namespace toile {

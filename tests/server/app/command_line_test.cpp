@@ -72,6 +72,33 @@ TEST(CommandLine, WithoutACommandTellsWhichThereAre) {
   EXPECT_EQ(toile_says({"--version"}).out, toile_says({"version"}).out);
 }
 
+TEST(CommandLine, AMisspeltWordIsToldWithTheRightOne) {
+  const test::ProcessResult option = toile_says({"alter", "--garmet", "skirt.json"});
+  EXPECT_EQ(option.exit_code, 2);
+  EXPECT_THAT(option.err, HasSubstr("toile: there is no option --garmet; did you mean --garment?"));
+  EXPECT_THAT(toile_says({"--quiet", "dape"}).err, HasSubstr("no command \"dape\"; did you mean drape?"));
+  EXPECT_THAT(toile_says({"--thread=2", "version"}).err, HasSubstr("did you mean --threads?"));
+  EXPECT_THAT(toile_says({"drape", "--colour", "red"}).err, HasSubstr("no option --colour; see toile drape --help"));
+  EXPECT_THAT(toile_says({"check", "--schema", "nothing", "x"}).err, HasSubstr("see toile check --help"));
+}
+
+TEST(CommandLine, WhatStandardOutputDoesNotTakeIsAFailure) {
+  const auto says = [](const std::string& line) { return test::run_process({"/bin/sh", "-c", kToile + line}); };
+  const test::ProcessResult full = says(" version > /dev/full");
+  EXPECT_EQ(full.exit_code, 4);
+  EXPECT_THAT(full.err, HasSubstr("standard output: cannot be written"));
+  EXPECT_EQ(says(" --quiet body builtin:tube-14-100 | head -n 1").err, "");
+}
+
+TEST(CommandLine, AFileThatALinkLeadsToIsWrittenInto) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("body.obj", ""), link = folder.path() + "/link.obj";
+  std::filesystem::create_symlink(file, link);
+  ASSERT_EQ(toile_says({"--quiet", "body", "builtin:tube-14-100", "--out", link}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_GT(std::filesystem::file_size(file), 1000u);
+}
+
 TEST(CommandLine, WrongOptionsAreToldByTheirFlagOrFile) {
   const test::TemporaryFolder folder;
   const std::string options = folder.write("options.json", R"({"preset": "fast"})");
@@ -113,6 +140,32 @@ TEST(CommandLine, ABrokenGarmentIsToldByItsFileAndPlace) {
   EXPECT_THAT(result.err, HasSubstr("cut.json: not JSON: syntax error at line 2"));
 }
 
+TEST(CommandLine, AFileThatIsNoGarmentIsToldByWhatItHolds) {
+  const test::TemporaryFolder folder;
+  const auto says = [&](const std::string& garment, const std::string& body, const std::string& flag = "--quiet") {
+    return toile_says({"drape", "--garment", garment, "--body", body, "--out", folder.path() + "/out", flag}).err;
+  };
+  const std::string about = folder.write("about.json", R"({"fabric": "jersey", "fits": ["mean_female"]})");
+  const std::string skirt = kExamples + "tube_skirt.json";
+  EXPECT_THAT(says(about, "builtin:tube-14-100"), HasSubstr("are \"fabric\", \"fits\"; give the file"));
+  EXPECT_THAT(says(folder.write("empty.obj", " \n"), "builtin:tube-14-100"), HasSubstr("empty.obj: the file is empty"));
+  EXPECT_THAT(says(skirt, skirt), HasSubstr("tube_skirt.json: /: this is a garment"));
+  EXPECT_THAT(says(skirt, "builtin:tube-14-100", "--keep-drape"), HasSubstr("keep_drape is for a garment as OBJ"));
+}
+
+TEST(CommandLine, LandmarksThatCannotBeUsedAreRefused) {
+  const test::TemporaryFolder folder;
+  const std::string far = folder.write("far.json", R"({"landmarks_m": {"crotch": [0, 70, 0]}})");
+  const std::string unknown = folder.write("unknown.json", R"({"landmarks_m": {"left_wrist": [0.4, 0.9, 0]}})");
+  const auto off = toile_says({"body", "builtin:woman-38-168", "--landmarks", far});
+  EXPECT_EQ(off.exit_code, 3);
+  EXPECT_THAT(off.err, HasSubstr("crotch lies 68 m away from the body"));
+  const auto wrong = toile_says({"register", "--reference-body", "builtin:woman-38-168", "--target-body",
+                                 "builtin:woman-44-172", "--landmarks", unknown, "--out", folder.path()});
+  EXPECT_EQ(wrong.exit_code, 3);
+  EXPECT_THAT(wrong.err, HasSubstr("no landmark \"left_wrist\"; it has ankle_l, "));
+}
+
 TEST(CommandLine, ABatchTellsWhichBodyFailsAndGoesOn) {
   const test::TemporaryFolder folder;
   const std::string bodies = folder.write("bodies.txt", "builtin:tube-99\nbuiltin:tube-16-100\n");
@@ -125,6 +178,18 @@ TEST(CommandLine, ABatchTellsWhichBodyFailsAndGoesOn) {
   EXPECT_THAT(result.err, HasSubstr("1 body could not be fitted"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() + "/all/tube-16-100/ticket.json"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() + "/all/tube-16-100/report.html"));
+}
+
+TEST(CommandLine, ABatchTakesOneBodyAndAFolderWhoseMeshesHaveNotesBesideThem) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(toile_says({"body", "builtin:tube-16-100", "--out", folder.path() + "/form.obj"}).exit_code, 0);
+  folder.write("form.json", R"({"measured": "in spring"})");
+  for (const std::string& bodies : {folder.path() + "/form.obj", folder.path(), std::string("builtin:tube-16-100")}) {
+    const auto result = toile_says({"--quiet", "batch", "--garment", kExamples + "tube_skirt.json", "--reference-body",
+                                    "builtin:tube-14-100", "--target-bodies", bodies, "--kind", "form", "--triangles",
+                                    kTriangles, "--outputs", "ticket.json", "--out", folder.path() + "/all"});
+    EXPECT_EQ(result.exit_code, 0) << bodies << ": " << result.err;
+  }
 }
 
 TEST(CommandLine, CheckTellsWhatAFileIsAndWhereItIsWrong) {
