@@ -11,6 +11,7 @@ namespace toile {
 namespace {
 
 constexpr double kLeastReach = 0.3, kMostReach = 0.75;  // of the mean edge: less than a row of triangles
+constexpr double kWiderReach = 1.0;                     // within which candidates are searched, of the mean edge
 constexpr double kReachPerMove = 4.0;                   // reach over the largest move between two refreshes
 constexpr double kLeastGap = 1e-9;                      // m: closer features have no direction between them
 constexpr double kPlaneMargin = 0.2;                    // share of the gap that stays free on either side of a plane
@@ -22,30 +23,11 @@ constexpr double kUnfolded = 0.8;  // share of the distance in the panel at whic
 // edge crosses 2.2 of another layer's.
 constexpr double kVertexShare = 1.0 / 4, kEdgeShare = 1.0 / 6 / 2.2;
 constexpr int kMarkedRings = 1;
+constexpr double kRoundedUp = 1 + 1e-9;  // bounds of moves stay bounds, whatever the rounding
 
-Triangles sewn_triangles(const PatternMesh& mesh) {
-  std::vector<Eigen::Vector3i> kept;
-  for (int f = 0; f < mesh.triangle_count(); ++f) {
-    const Eigen::Vector3i n = mesh.nodes_of_triangle(f);
-    if (n[0] != n[1] && n[1] != n[2] && n[2] != n[0]) kept.push_back(n);
-  }
-  Triangles triangles(static_cast<Eigen::Index>(kept.size()), 3);
-  for (std::size_t f = 0; f < kept.size(); ++f) triangles.row(static_cast<Eigen::Index>(f)) = kept[f].transpose();
-  return triangles;
-}
-
-ClothPatches patches_of(const PatternMesh& mesh, const Triangles& triangles) {
-  Points2 centres(triangles.rows(), 2);
-  std::vector<int> panel;
-  for (int f = 0; f < mesh.triangle_count(); ++f) {
-    const Eigen::Vector3i n = mesh.nodes_of_triangle(f);
-    if (n[0] == n[1] || n[1] == n[2] || n[2] == n[0]) continue;
-    const auto row = static_cast<Eigen::Index>(panel.size());
-    centres.row(row).setZero();
-    for (int k = 0; k < 3; ++k) centres.row(row) += mesh.rest.row(mesh.triangles(f, k)) / 3;
-    panel.push_back(mesh.panel_of_triangle[static_cast<std::size_t>(f)]);
-  }
-  return {triangles, centres, panel};
+// Largest distance of a row of `a` from that of `b`.
+double farthest(const Points3& a, const Points3& b) {
+  return std::sqrt((a - b).rowwise().squaredNorm().maxCoeff());
 }
 
 template <class T>
@@ -58,67 +40,26 @@ decltype(auto) at(T& list, int i) {
 ClothContact::ClothContact(const Cloth& cloth, const PatternMesh& mesh, const ClothContactOptions& options)
     : cloth_(cloth),
       options_(options),
-      triangles_(sewn_triangles(mesh)),
-      patches_(patches_of(mesh, triangles_)),
+      features_(mesh),
+      rest_centre_(features_.centres()),
+      patches_(features_.triangles, rest_centre_, features_.panel),
       reach_(kMostReach * cloth.mean_edge),
       marked_(static_cast<std::size_t>(cloth.node_count), false),
       swelling_(Points3::Zero(cloth.node_count, 3)) {
-  boxes_.resize(static_cast<std::size_t>(triangles_.rows()));
-  centre_.setZero(triangles_.rows(), 3);
-  normal_.setZero(triangles_.rows(), 3);
-  for (int f = 0; f < mesh.triangle_count(); ++f) {
-    const Eigen::Vector3i n = mesh.nodes_of_triangle(f);
-    if (n[0] == n[1] || n[1] == n[2] || n[2] == n[0]) continue;
-    rest_.emplace_back();
-    for (int k = 0; k < 3; ++k) rest_.back().row(k) << mesh.rest.row(mesh.triangles(f, k)), 0;
-    panel_.push_back(mesh.panel_of_triangle[static_cast<std::size_t>(f)]);
-  }
-  find_edges();
-}
-
-void ClothContact::find_edges() {
-  struct Side {
-    std::pair<int, int> nodes;
-    int triangle, corner;
-  };
-  std::vector<Side> sides;
-  const int count = static_cast<int>(triangles_.rows());
-  owner_of_node_.assign(static_cast<std::size_t>(cloth_.node_count), -1);
-  for (int f = 0; f < count; ++f)
-    for (int k = 0; k < 3; ++k) {
-      sides.push_back({std::minmax(corner(f, k), corner(f, (k + 1) % 3)), f, k});
-      if (at(owner_of_node_, corner(f, k)) < 0) at(owner_of_node_, corner(f, k)) = f;
-    }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.nodes != b.nodes ? a.nodes < b.nodes : a.triangle < b.triangle;
-  });
-  owned_edges_.assign(static_cast<std::size_t>(count), {-1, -1, -1});
-  edges_of_triangle_ = owned_edges_;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const Side& side = sides[i];
-    if (i == 0 || sides[i - 1].nodes != side.nodes) {
-      edges_.push_back({{side.nodes.first, side.nodes.second}, {side.triangle, -1}});
-      at(at(owned_edges_, side.triangle), side.corner) = static_cast<int>(edges_.size()) - 1;
-    } else if (edges_.back().triangle[1] < 0) {
-      edges_.back().triangle[1] = side.triangle;
-    }
-    at(at(edges_of_triangle_, side.triangle), side.corner) = static_cast<int>(edges_.size()) - 1;
-  }
-}
-
-bool ClothContact::has_node(int triangle, int node) const {
-  return corner(triangle, 0) == node || corner(triangle, 1) == node || corner(triangle, 2) == node;
+  boxes_.resize(static_cast<std::size_t>(features_.triangle_count()));
+  centre_.setZero(features_.triangle_count(), 3);
+  normal_.setZero(features_.triangle_count(), 3);
 }
 
 bool ClothContact::refresh(const Points3& nodes) {
   const bool pierced = !piercings_.empty();
   if (fresh_) {
-    const double moved = std::sqrt((nodes - seen_at_).rowwise().squaredNorm().maxCoeff());
+    const double moved = farthest(nodes, seen_at_);
     reach_ = std::clamp(kReachPerMove * moved, std::max(kLeastReach * cloth_.mean_edge, 2 * options_.thickness),
                         kMostReach * cloth_.mean_edge);
   }
   seen_at_ = nodes;
-  moved_squared_ = 0;
+  moved_ = 0;
   fresh_ = true;
   stale_ = false;
   hindered_ = false;
@@ -133,7 +74,7 @@ bool ClothContact::refresh(const Points3& nodes) {
   }
   for (const PiercedTriangle& piercing : piercings_) add_push(nodes, piercing);
   if (options_.mirror) planes_.reflect(options_.mirror->image);
-  planes_.sort(cloth_.node_count);
+  planes_.sort(nodes);
   return pierced || !piercings_.empty() || swollen_;
 }
 
@@ -151,37 +92,34 @@ double ClothContact::swelling(const LayerPair& pair, const std::array<double, 4>
   return sum;
 }
 
-// Triangles within reach, out of candidates that are searched for anew only when nodes have moved too far.
+// Triangles within reach, out of candidates that are searched for anew only where nodes have moved too far.
 void ClothContact::find_near(const Points3& nodes) {
-  const double most = kMostReach * cloth_.mean_edge;
-  const double moved = searched_ ? std::sqrt((nodes - searched_at_).rowwise().squaredNorm().maxCoeff()) : most;
-  if (reach_ + 2 * moved > most) {
-    candidates_ = patches_.find_near(nodes, most);
-    searched_at_ = nodes;
-    searched_ = true;
-    std::vector<char> involved(boxes_.size(), false);
-    for (const auto& [f, g] : candidates_) at(involved, f) = at(involved, g) = true;
-    involved_.clear();
-    for (int f = 0; f < static_cast<int>(involved.size()); ++f)
-      if (at(involved, f)) involved_.push_back(f);
-  }
+  if (patches_.update(nodes, reach_, kWiderReach * cloth_.mean_edge)) find_involved();
   for (const int f : involved_) {
-    const Vec3 a = nodes.row(triangles_(f, 0)), b = nodes.row(triangles_(f, 1)), c = nodes.row(triangles_(f, 2));
+    const Vec3 a = nodes.row(corner(f, 0)), b = nodes.row(corner(f, 1)), c = nodes.row(corner(f, 2));
     boxes_[static_cast<std::size_t>(f)] = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
     centre_.row(f) = ((a + b + c) / 3).transpose();
     normal_.row(f) = (b - a).cross(c - a).transpose();
   }
-  for (const auto& [f, g] : candidates_)
+  for (const auto& [f, g] : patches_.near())
     if (at(boxes_, f).near(at(boxes_, g), reach_) && !unfolded(f, g)) near_.emplace_back(f, g);
+}
+
+void ClothContact::find_involved() {
+  std::vector<char> involved(boxes_.size(), false);
+  for (const auto& [f, g] : patches_.near()) at(involved, f) = at(involved, g) = true;
+  involved_.clear();
+  for (int f = 0; f < static_cast<int>(involved.size()); ++f)
+    if (at(involved, f)) involved_.push_back(f);
 }
 
 void ClothContact::find_piercings(const Points3& nodes) {
   piercings_.clear();
   const auto look = [&](int f, int g) {
-    for (int e : at(owned_edges_, f)) {
+    for (int e : at(features_.owned_edges, f)) {
       if (e < 0) continue;
-      const auto [p, q] = at(edges_, e).node;
-      if (has_node(g, p) || has_node(g, q)) continue;
+      const auto [p, q] = at(features_.edges, e).node;
+      if (features_.has_node(g, p) || features_.has_node(g, q)) continue;
       if (const auto found = pierce(nodes.row(p), nodes.row(q), nodes.row(corner(g, 0)), nodes.row(corner(g, 1)),
                                     nodes.row(corner(g, 2))))
         piercings_.push_back({e, g, found->s, found->barycentric});
@@ -195,12 +133,12 @@ void ClothContact::mark_around_piercings() {
   std::fill(marked_.begin(), marked_.end(), false);
   if (piercings_.empty()) return;
   for (const PiercedTriangle& piercing : piercings_) {
-    for (int n : at(edges_, piercing.edge).node) at(marked_, n) = true;
+    for (int n : at(features_.edges, piercing.edge).node) at(marked_, n) = true;
     for (int k = 0; k < 3; ++k) at(marked_, corner(piercing.triangle, k)) = true;
   }
   for (int ring = 0; ring < kMarkedRings; ++ring) {
     const std::vector<char> before = marked_;
-    for (const Edge& edge : edges_)
+    for (const ClothFeatures::Edge& edge : features_.edges)
       if (at(before, edge.node[0]) || at(before, edge.node[1]))
         at(marked_, edge.node[0]) = at(marked_, edge.node[1]) = true;
   }
@@ -214,7 +152,7 @@ void ClothContact::find_vertex_pairs(const Points3& nodes, int f, int g) {
   const double steep = reach_ * reach_ * normal.squaredNorm();
   for (int k = 0; k < 3; ++k) {
     const int v = corner(f, k);
-    if (at(owner_of_node_, v) != f || has_node(g, v) || (uncertain && at(marked_, v))) continue;
+    if (at(features_.owner_of_node, v) != f || features_.has_node(g, v) || (uncertain && at(marked_, v))) continue;
     const Vec3 p = nodes.row(v);
     const double height = normal.dot(p - a);
     if (height * height > steep || !at(boxes_, g).near({p, p}, reach_)) continue;
@@ -238,17 +176,17 @@ void ClothContact::find_vertex_pairs(const Points3& nodes, int f, int g) {
 
 void ClothContact::find_edge_pairs(const Points3& nodes, int f, int g) {
   for (int k = 0; k < 3; ++k) {
-    const int e = at(owned_edges_, f)[static_cast<std::size_t>(k)];
+    const int e = at(features_.owned_edges, f)[static_cast<std::size_t>(k)];
     if (e < 0) continue;
-    const auto [p, q] = at(edges_, e).node;
+    const auto [p, q] = at(features_.edges, e).node;
     const Vec3 a = nodes.row(p), b = nodes.row(q);
     const TriangleBox box{a.cwiseMin(b), a.cwiseMax(b)};
     if (!box.near(at(boxes_, g), reach_)) continue;
     const bool uncertain = at(marked_, p) || at(marked_, q);
     for (int l = 0; l < 3; ++l) {
-      const int other = at(owned_edges_, g)[static_cast<std::size_t>(l)];
+      const int other = at(features_.owned_edges, g)[static_cast<std::size_t>(l)];
       if (other < 0) continue;
-      const auto [r, s] = at(edges_, other).node;
+      const auto [r, s] = at(features_.edges, other).node;
       if (p == r || p == s || q == r || q == s || (uncertain && (at(marked_, r) || at(marked_, s)))) continue;
       const Vec3 c = nodes.row(r), d = nodes.row(s);
       if (!box.near({c.cwiseMin(d), c.cwiseMax(d)}, reach_)) continue;
@@ -275,16 +213,16 @@ void ClothContact::find_edge_pairs(const Points3& nodes, int f, int g) {
 // Features of one panel may be nearer each other than the thickness as they lie flat.
 template <class Distance>
 double ClothContact::thickness_of(int f, int g, Distance distance_at_rest) const {
-  if (at(panel_, f) != at(panel_, g)) return options_.thickness;
-  return std::min(options_.thickness, kUnfolded * distance_at_rest(at(rest_, f), at(rest_, g)));
+  if (at(features_.panel, f) != at(features_.panel, g)) return options_.thickness;
+  return std::min(options_.thickness, kUnfolded * distance_at_rest(at(features_.rest, f), at(features_.rest, g)));
 }
 
 // Two triangles of one panel that are about as far apart as in flat cloth and face the same way: what lies between them
 // is no fold.
 bool ClothContact::unfolded(int f, int g) const {
-  if (at(panel_, f) != at(panel_, g)) return false;
+  if (at(features_.panel, f) != at(features_.panel, g)) return false;
   const double apart = (centre_.row(f) - centre_.row(g)).squaredNorm();
-  return apart > kUnfolded * kUnfolded * (at(rest_, f) - at(rest_, g)).colwise().mean().squaredNorm() &&
+  return apart > kUnfolded * kUnfolded * (rest_centre_.row(f) - rest_centre_.row(g)).squaredNorm() &&
          normal_.row(f).dot(normal_.row(g)) > 0;
 }
 
@@ -305,7 +243,7 @@ Vec3 ClothContact::shortening(const Points3& nodes, const PiercedTriangle& pierc
     const Vec3 a = nodes.row(corner(f, 0)), b = nodes.row(corner(f, 1)), c = nodes.row(corner(f, 2));
     return Vec3((b - a).cross(c - a).normalized());
   };
-  const Edge& edge = at(edges_, piercing.edge);
+  const ClothFeatures::Edge& edge = at(features_.edges, piercing.edge);
   const Vec3 p = nodes.row(edge.node[0]), q = nodes.row(edge.node[1]);
   const Vec3 along = (q - p).normalized(), normal = normal_of(piercing.triangle);
   Vec3 direction = Vec3::Zero();
@@ -327,7 +265,7 @@ Vec3 ClothContact::shortening(const Points3& nodes, const PiercedTriangle& pierc
 }
 
 void ClothContact::add_push(const Points3& nodes, const PiercedTriangle& piercing) {
-  const Edge& edge = at(edges_, piercing.edge);
+  const ClothFeatures::Edge& edge = at(features_.edges, piercing.edge);
   LayerPush pair;
   for (int k = 0; k < 3; ++k) {
     at(pair.node, k + 2) = corner(piercing.triangle, k);
@@ -341,18 +279,35 @@ void ClothContact::add_push(const Points3& nodes, const PiercedTriangle& piercin
   pairs_.add(pair);  // its points coincide: n . sum(weight x) is 0 here
 }
 
-void ClothContact::limit(const Points3& from, Points3& to) {
+bool ClothContact::limit(const Points3& from, Points3& to, double longest) {
   const double ball = 0.49 * (reach_ - options_.thickness);  // what is out of reach cannot begin to repel
-  moved_squared_ = 0;
+  moved_ = kRoundedUp * (moved_ + longest);
+  bool limited = false;
+  if (moved_ > ball) {
+    limited = keep_within(ball, to);
+    moved_ = kRoundedUp * std::max(farthest(seen_at_, from), farthest(seen_at_, to));
+  }
+  if (!planes_.limit(from, to, moved_)) return limited;
+  hindered_ = true;
+  return true;
+}
+
+bool ClothContact::keep_within(double ball, Points3& to) {
+  bool kept = false;
   for (Eigen::Index i = 0; i < to.rows(); ++i) {
     const Vec3 seen = seen_at_.row(i), away = to.row(i).transpose() - seen;
     const double far = away.squaredNorm();
-    moved_squared_ = std::max(moved_squared_, std::min(far, ball * ball));
     if (far <= ball * ball) continue;
-    stale_ = true;
+    kept = stale_ = true;
     to.row(i) = (seen + ball / std::sqrt(far) * away).transpose();
   }
-  if (planes_.limit(from, to)) hindered_ = true;
+  return kept;
+}
+
+bool ClothContact::moved_beyond(double distance, const Points3& nodes) {
+  if (moved_ <= distance) return false;
+  moved_ = farthest(seen_at_, nodes);
+  return moved_ > distance;
 }
 
 }  // namespace toile

@@ -11,8 +11,11 @@
 // Pairs are found by patches (cloth_patches.h): smooth cloth costs next to nothing. SI units.
 #pragma once
 
+#include <limits>
+
 #include "engine/core/pattern_mesh.h"
 #include "engine/sim/cloth.h"
+#include "engine/sim/cloth_features.h"
 #include "engine/sim/cloth_patches.h"
 #include "engine/sim/layer_pairs.h"
 #include "engine/sim/node_mirror.h"
@@ -45,33 +48,30 @@ class ClothContact {
   // Fixes their closest points and directions, until the next refresh.
   void hold(const Points3& nodes) { pairs_.hold(nodes); }
 
-  // Shortens the moves from `from`, where all planes hold, to `to` so that they still hold.
-  void limit(const Points3& from, Points3& to);
+  // Shortens the moves from `from`, where all planes hold, to `to` so that they still hold; no node goes further than
+  // `longest`, m. False: all did. Where nothing can have come near a limit, no node is looked at.
+  bool limit(const Points3& from, Points3& to, double longest = std::numeric_limits<double>::infinity());
   // Some node was stopped for want of knowledge about what lies ahead: refresh soon.
   bool stale() const { return stale_; }
   // Some node was stopped by the plane of a pair.
   bool hindered() const { return hindered_; }
-  // Largest move of a node from the last refresh to the nodes last limited, m, and the distance within which that
-  // looked for pairs, m.
-  double moved() const { return std::sqrt(moved_squared_); }
-  double reach() const { return reach_; }
+  // Whether some node is further than `distance` (m) from where it was at the last refresh. `nodes`: last limited.
+  bool moved_beyond(double distance, const Points3& nodes);
+  double reach() const { return reach_; }  // within which the last refresh looked for pairs, m
 
   int piercings() const { return static_cast<int>(piercings_.size()); }
   int planes() const { return planes_.count(); }  // 0: nothing is within reach
 
  private:
-  struct Edge {
-    std::array<int, 2> node;
-    std::array<int, 2> triangle;  // -1: none; further triangles are left out
-  };
   struct PiercedTriangle {
     int edge, triangle;
     double s;
     Vec3 barycentric;
   };
 
-  void find_edges();
+  bool keep_within(double ball, Points3& to);  // of where nodes were seen; false: all were
   void find_near(const Points3& nodes);
+  void find_involved();
   void find_piercings(const Points3& nodes);
   void mark_around_piercings();
   void find_vertex_pairs(const Points3& nodes, int f, int g);
@@ -83,29 +83,22 @@ class ClothContact {
   void add_push(const Points3& nodes, const PiercedTriangle& piercing);
   Vec3 shortening(const Points3& nodes, const PiercedTriangle& piercing) const;
   bool unfolded(int f, int g) const;
-  bool has_node(int triangle, int node) const;
-  int corner(int triangle, int k) const { return triangles_(triangle, k); }
+  int corner(int triangle, int k) const { return features_.triangles(triangle, k); }
+
   const Cloth& cloth_;
   ClothContactOptions options_;
-  Triangles triangles_;  // of nodes
+  ClothFeatures features_;
+  Points2 rest_centre_;  // #T x 2, m
   ClothPatches patches_;
-  std::vector<Mat3> rest_;  // per triangle, corners as rows, in the panel's plane
-  std::vector<int> panel_;  // per triangle
-  std::vector<Edge> edges_;
-  std::vector<std::array<int, 3>> owned_edges_;  // per triangle, -1: owned by another
-  std::vector<int> owner_of_node_;
-  std::vector<std::array<int, 3>> edges_of_triangle_;
 
   double reach_;
-  Points3 seen_at_;  // #N x 3, of the last refresh
-  double moved_squared_ = 0.0;
+  Points3 seen_at_;     // #N x 3, of the last refresh
+  double moved_ = 0.0;  // upper bound of the moves since, m
   bool fresh_ = false, stale_ = false, hindered_ = false;
-  Points3 searched_at_;  // #N x 3, where candidates_ were found
-  bool searched_ = false;
-  std::vector<TriangleBox> boxes_;                      // per triangle, of those involved
-  Points3 centre_, normal_;                             // the same
-  std::vector<std::pair<int, int>> candidates_, near_;  // pairs of triangles
-  std::vector<int> involved_;                           // triangles of candidates_, ascending
+  std::vector<TriangleBox> boxes_;         // per triangle, of those involved
+  Points3 centre_, normal_;                // the same
+  std::vector<std::pair<int, int>> near_;  // pairs of triangles within reach_
+  std::vector<int> involved_;              // triangles of those that patches_ finds near, ascending
   std::vector<PiercedTriangle> piercings_;
   std::vector<char> marked_;  // nodes near a piercing
   LayerPairs pairs_;

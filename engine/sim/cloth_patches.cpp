@@ -26,9 +26,12 @@ ClothPatches::ClothPatches(const Triangles& triangles, const Points2& rest, cons
     divide(rest, begin, end, next);
   }
   find_sides(number);
-  boxes_.resize(order_.size());
+  find_nodes();
   find_neighbours();
+  boxes_.resize(order_.size());
   by_height_.resize(patches_.size());
+  std::iota(by_height_.begin(), by_height_.end(), 0);
+  moved_.assign(patches_.size(), true);
 }
 
 // Panels need not face the same way where they are sewn together: without knowing, the two layers of a sleeve pressed
@@ -77,7 +80,7 @@ void ClothPatches::find_sides(const std::vector<int>& panel) {
 
 void ClothPatches::divide(const Points2& rest, int begin, int end, int panel) {
   if (end - begin <= kPatchSize) {
-    patches_.push_back({begin, end, {}, Vec3::Zero(), 0, panel});
+    patches_.push_back({begin, end, panel, 0, 0, {}, Vec3::Zero(), 1, 0});
     return;
   }
   const auto first = order_.begin() + begin, last = order_.begin() + end;
@@ -94,14 +97,32 @@ void ClothPatches::divide(const Points2& rest, int begin, int end, int panel) {
   divide(rest, middle, end, panel);
 }
 
+void ClothPatches::find_nodes() {
+  corners_.resize(order_.size());
+  for (Patch& patch : patches_) {
+    patch.first_node = static_cast<int>(nodes_.size());
+    for (int k = patch.begin; k < patch.end; ++k)
+      for (int c = 0; c < 3; ++c) nodes_.push_back(triangles_(order_[static_cast<std::size_t>(k)], c));
+    const auto first = nodes_.begin() + patch.first_node;
+    std::sort(first, nodes_.end());
+    nodes_.erase(std::unique(first, nodes_.end()), nodes_.end());
+    patch.end_node = static_cast<int>(nodes_.size());
+    for (int k = patch.begin; k < patch.end; ++k)
+      for (int c = 0; c < 3; ++c) {
+        const int node = triangles_(order_[static_cast<std::size_t>(k)], c);
+        const auto place = std::lower_bound(nodes_.begin() + patch.first_node, nodes_.end(), node);
+        corners_[static_cast<std::size_t>(k)][static_cast<std::size_t>(c)] = static_cast<int>(place - nodes_.begin());
+      }
+  }
+  seen_.setZero(static_cast<Eigen::Index>(nodes_.size()), 3);
+}
+
 void ClothPatches::find_neighbours() {
   std::vector<std::pair<int, int>> patch_of_node;
   for (std::size_t p = 0; p < patches_.size(); ++p)
-    for (int k = patches_[p].begin; k < patches_[p].end; ++k)
-      for (int c = 0; c < 3; ++c)
-        patch_of_node.emplace_back(triangles_(order_[static_cast<std::size_t>(k)], c), static_cast<int>(p));
+    for (int k = patches_[p].first_node; k < patches_[p].end_node; ++k)
+      patch_of_node.emplace_back(nodes_[static_cast<std::size_t>(k)], static_cast<int>(p));
   std::sort(patch_of_node.begin(), patch_of_node.end());
-  patch_of_node.erase(std::unique(patch_of_node.begin(), patch_of_node.end()), patch_of_node.end());
   neighbours_.resize(patches_.size());
   for (std::size_t i = 0; i < patch_of_node.size(); ++i)
     for (std::size_t j = i + 1; j < patch_of_node.size() && patch_of_node[j].first == patch_of_node[i].first; ++j) {
@@ -118,80 +139,149 @@ void ClothPatches::find_neighbours() {
   }
 }
 
-void ClothPatches::measure(const Points3& nodes) {
-  std::array<Vec3, 2 * kPatchSize> normals;
-  for (Patch& patch : patches_) {
-    patch.box = {};
-    patch.axis.setZero();
-    for (int k = patch.begin; k < patch.end; ++k) {
-      const int f = order_[static_cast<std::size_t>(k)];
-      const Vec3 a = nodes.row(triangles_(f, 0)), b = nodes.row(triangles_(f, 1)), c = nodes.row(triangles_(f, 2));
-      TriangleBox& box = boxes_[static_cast<std::size_t>(f)];
-      box = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-      patch.box.low = patch.box.low.cwiseMin(box.low);
-      patch.box.high = patch.box.high.cwiseMax(box.high);
-      const Vec3 normal = (b - a).cross(c - a);
-      patch.axis += normal;
-      normals[static_cast<std::size_t>(k - patch.begin)] = normal;
-    }
-    const double length = patch.axis.norm();
-    double cosine = length > 0 ? 1 : -1;
-    if (length > 0) patch.axis /= length;
-    for (int k = 0; k < patch.end - patch.begin; ++k) {
-      const Vec3& normal = normals[static_cast<std::size_t>(k)];
-      cosine = std::min(cosine, patch.axis.dot(normal) / std::max(normal.norm(), 1e-300));
-    }
-    patch.spread = std::acos(std::clamp(cosine, -1.0, 1.0));
+void ClothPatches::find_moved(const Points3& nodes, double most) {
+  moved_count_ = 0;
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    bool moved = !measured_;
+    for (int k = patches_[p].first_node; k < patches_[p].end_node && !moved; ++k)
+      moved = (nodes.row(nodes_[static_cast<std::size_t>(k)]) - seen_.row(k)).squaredNorm() >= most * most;
+    moved_[p] = moved;
+    moved_count_ += moved;
   }
+  measured_ = true;
 }
 
+void ClothPatches::measure(Patch& patch, const Points3& nodes) {
+  std::array<Vec3, kPatchSize> normals;
+  for (int k = patch.first_node; k < patch.end_node; ++k) seen_.row(k) = nodes.row(nodes_[static_cast<std::size_t>(k)]);
+  patch.box = {};
+  patch.axis.setZero();
+  for (int k = patch.begin; k < patch.end; ++k) {
+    const std::array<int, 3>& corner = corners_[static_cast<std::size_t>(k)];
+    const Vec3 a = seen_.row(corner[0]), b = seen_.row(corner[1]), c = seen_.row(corner[2]);
+    TriangleBox& box = boxes_[static_cast<std::size_t>(k)];
+    box = {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+    patch.box.low = patch.box.low.cwiseMin(box.low);
+    patch.box.high = patch.box.high.cwiseMax(box.high);
+    const Vec3 normal = (b - a).cross(c - a);
+    patch.axis += normal;
+    normals[static_cast<std::size_t>(k - patch.begin)] = normal;
+  }
+  const double length = patch.axis.norm();
+  double cosine = length > 0 ? 1 : -1;
+  if (length > 0) patch.axis /= length;
+  for (int k = 0; k < patch.end - patch.begin; ++k) {
+    const Vec3& normal = normals[static_cast<std::size_t>(k)];
+    cosine = std::min(cosine, patch.axis.dot(normal) / std::max(normal.norm(), 1e-300));
+  }
+  patch.cosine = std::clamp(cosine, -1.0, 1.0);
+  patch.sine = std::sqrt(1 - patch.cosine * patch.cosine);
+}
+
+// Half the angle between the axes and both spreads together is below kSmooth; told by cosines.
 bool ClothPatches::smooth(const Patch& a, const Patch& b) const {
-  if (a.spread + b.spread >= 2 * kSmooth) return false;
+  static const double least = std::cos(kSmooth), cosine = std::cos(2 * kSmooth), sine = std::sin(2 * kSmooth);
+  if (a.cosine <= least || b.cosine <= least) return false;
   const double alike = side_[static_cast<std::size_t>(a.panel)] * side_[static_cast<std::size_t>(b.panel)];
-  const double between = std::acos(std::clamp(alike * a.axis.dot(b.axis), -1.0, 1.0));
-  return std::max({a.spread, b.spread, 0.5 * (between + a.spread + b.spread)}) < kSmooth;
+  return alike * a.axis.dot(b.axis) >
+         cosine * (a.cosine * b.cosine - a.sine * b.sine) + sine * (a.sine * b.cosine + a.cosine * b.sine);
+}
+
+// Whether two patches lie in one smooth piece of cloth: they are neighbours, or have some, all of them in it.
+bool ClothPatches::together(int a, int b) const {
+  if (!smooth(patch(a), patch(b))) return false;
+  const std::vector<int>&near_a = neighbours_[static_cast<std::size_t>(a)],
+        &near_b = neighbours_[static_cast<std::size_t>(b)];
+  if (std::binary_search(near_a.begin(), near_a.end(), b)) return true;
+  bool between = false;
+  for (auto i = near_a.begin(), j = near_b.begin(); i != near_a.end() && j != near_b.end();) {
+    if (*i != *j) {
+      ++(*i < *j ? i : j);
+      continue;
+    }
+    if (!smooth(patch(a), patch(*i)) || !smooth(patch(*i), patch(b))) return false;
+    between = true;
+    ++i, ++j;
+  }
+  return between;
+}
+
+void ClothPatches::add_pair(int a, int b, double reach) {
+  if (!patch(a).box.near(patch(b).box, reach)) return;
+  if (together(a, b)) return;
+  found_.push_back({std::min(a, b), std::max(a, b), -1});
 }
 
 void ClothPatches::find_pairs(double reach) {
-  pairs_.clear();
-  const auto patch = [this](int p) -> const Patch& { return patches_[static_cast<std::size_t>(p)]; };
-  std::iota(by_height_.begin(), by_height_.end(), 0);
-  std::sort(by_height_.begin(), by_height_.end(), [&](int a, int b) {
-    return patch(a).box.low.y() != patch(b).box.low.y() ? patch(a).box.low.y() < patch(b).box.low.y() : a < b;
-  });
+  found_.clear();
+  const auto low = [&](int p) { return patch(p).box.low.y(); };
+  std::sort(by_height_.begin(), by_height_.end(),
+            [&](int a, int b) { return low(a) != low(b) ? low(a) < low(b) : a < b; });
+  double tallest = 0;
+  for (const Patch& p : patches_) tallest = std::max(tallest, p.box.high.y() - p.box.low.y());
+  const auto moved = [&](int p) { return moved_[static_cast<std::size_t>(p)] != 0; };
   for (std::size_t i = 0; i < by_height_.size(); ++i) {
     const int a = by_height_[i];
-    if (patch(a).spread >= kSmooth) pairs_.emplace_back(a, a);
-    for (std::size_t j = i + 1;
-         j < by_height_.size() && patch(by_height_[j]).box.low.y() <= patch(a).box.high.y() + reach; ++j) {
-      const int b = by_height_[j];
-      if (!patch(a).box.near(patch(b).box, reach)) continue;
-      const std::vector<int>& near = neighbours_[static_cast<std::size_t>(a)];
-      if (std::binary_search(near.begin(), near.end(), b) && smooth(patch(a), patch(b))) continue;
-      pairs_.push_back(std::minmax(a, b));
-    }
+    if (!moved(a)) continue;
+    if (!smooth(patch(a), patch(a))) found_.push_back({a, a, -1});
+    for (std::size_t j = i + 1; j < by_height_.size() && low(by_height_[j]) <= patch(a).box.high.y() + reach; ++j)
+      add_pair(a, by_height_[j], reach);
+    if (moved_count_ == static_cast<int>(patches_.size())) continue;
+    for (std::size_t j = i; j-- > 0 && low(by_height_[j]) >= low(a) - reach - tallest;)
+      if (!moved(by_height_[j])) add_pair(a, by_height_[j], reach);
   }
+  std::sort(found_.begin(), found_.end(),
+            [](const PatchPair& x, const PatchPair& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
 }
 
-const std::vector<std::pair<int, int>>& ClothPatches::find_near(const Points3& nodes, double reach) {
-  measure(nodes);
-  find_pairs(reach);
-  near_.clear();
-  const auto box_of = [this](int f) -> const TriangleBox& { return boxes_[static_cast<std::size_t>(f)]; };
+void ClothPatches::add_near(const PatchPair& pair, double reach) {
+  const auto box_of = [this](int k) -> const TriangleBox& { return boxes_[static_cast<std::size_t>(k)]; };
   const auto collect = [&](const Patch& from, const TriangleBox& at, std::vector<int>& found) {
     found.clear();
     for (int k = from.begin; k < from.end; ++k)
-      if (const int f = order_[static_cast<std::size_t>(k)]; box_of(f).near(at, reach)) found.push_back(f);
+      if (box_of(k).near(at, reach)) found.push_back(k);
   };
-  for (const auto& [a, b] : pairs_) {
-    const Patch &pa = patches_[static_cast<std::size_t>(a)], &pb = patches_[static_cast<std::size_t>(b)];
-    collect(pa, pb.box, near_a_);
-    collect(pb, pa.box, near_b_);
-    for (std::size_t i = 0; i < near_a_.size(); ++i)
-      for (std::size_t j = a == b ? i + 1 : 0; j < near_b_.size(); ++j)
-        if (box_of(near_a_[i]).near(box_of(near_b_[j]), reach)) near_.emplace_back(near_a_[i], near_b_[j]);
+  collect(patch(pair.a), patch(pair.b).box, near_a_);
+  collect(patch(pair.b), patch(pair.a).box, near_b_);
+  const auto triangle = [this](int k) { return order_[static_cast<std::size_t>(k)]; };
+  for (std::size_t i = 0; i < near_a_.size(); ++i)
+    for (std::size_t j = pair.a == pair.b ? i + 1 : 0; j < near_b_.size(); ++j)
+      if (box_of(near_a_[i]).near(box_of(near_b_[j]), reach))
+        renewed_.emplace_back(triangle(near_a_[i]), triangle(near_b_[j]));
+}
+
+void ClothPatches::renew_near(double reach) {
+  renewed_.clear(), merged_.clear();
+  auto next = found_.begin();
+  const auto take_found = [&](const PatchPair* before) {
+    for (; next != found_.end() && (!before || std::pair(next->a, next->b) < std::pair(before->a, before->b)); ++next) {
+      const std::size_t count = renewed_.size();
+      add_near(*next, reach);
+      merged_.push_back({next->a, next->b, static_cast<int>(renewed_.size() - count)});
+    }
+  };
+  auto kept = near_.begin();
+  for (const PatchPair& pair : pairs_) {
+    const auto begin = kept;
+    kept += pair.count;
+    if (moved_[static_cast<std::size_t>(pair.a)] || moved_[static_cast<std::size_t>(pair.b)]) continue;
+    take_found(&pair);
+    renewed_.insert(renewed_.end(), begin, kept);
+    merged_.push_back(pair);
   }
-  return near_;
+  take_found(nullptr);
+  near_.swap(renewed_);
+  pairs_.swap(merged_);
+}
+
+bool ClothPatches::update(const Points3& nodes, double reach, double wider) {
+  find_moved(nodes, 0.5 * (wider - reach));
+  if (moved_count_ == 0) return false;
+  for (std::size_t p = 0; p < patches_.size(); ++p)
+    if (moved_[p]) measure(patches_[p], nodes);
+  find_pairs(wider);
+  renew_near(wider);
+  return true;
 }
 
 }  // namespace toile

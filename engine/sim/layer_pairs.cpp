@@ -14,6 +14,9 @@ constexpr double kFloor = 0.1;         // share of the thickness below which the
 constexpr double kBlunt = 0.04;        // squared sine of the angle between two edges below which their pair fades
 constexpr double kMostSwelling = 0.5;  // of the thickness, on either side: pairs are found from further away
 constexpr double kSlack = 0.3;         // of the thickness above the floor in which swelling stays: it must come to rest
+// Shares of what they lack or exceed, on either side, by which layers swell and shrink: they must carry the load within
+// few rounds, and those that bounce must not lose all they had.
+constexpr double kSwell = 1.0, kShrink = 0.5;
 constexpr double kLeastWeight = 0.05;  // of a node in a closest point, for it to count as pressed
 constexpr double kLeastGap = 1e-9;     // m: closer features have no direction between them
 
@@ -146,7 +149,8 @@ void LayerPairs::swell(const Points3& nodes, Points3& swelling) const {
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
     const Narrowest& at = narrowest[static_cast<std::size_t>(i)];
     const double so_far = std::max(0.0, swelling.row(i).dot(at.side));
-    swelling.row(i) = std::clamp(so_far + 0.5 * at.lack, 0.0, at.most) * at.side.transpose();
+    swelling.row(i) =
+        std::clamp(so_far + (at.lack > 0 ? kSwell : kShrink) * at.lack, 0.0, at.most) * at.side.transpose();
   }
 }
 

@@ -43,7 +43,7 @@ class LayerPairs {
 
   // Adds the gradient (#N x 3, N) and returns the energy, J.
   double energy_gradient(const Points3& nodes, Points3& gradient) const;
-  // Lets nodes swell by half of what the narrowest of their pairs lacks to the floor at `nodes`, or shrink by what it
+  // Lets nodes swell by what the narrowest of their pairs lacks to the floor at `nodes`, or shrink by half of what it
   // exceeds it (#N x 3 each, m). Counts with the pairs added from then on.
   void swell(const Points3& nodes, Points3& swelling) const;
 

@@ -16,35 +16,43 @@ void NodePlanes::reflect(const std::vector<int>& image) {
   }
 }
 
-void NodePlanes::sort(int node_count) {
-  begin_.assign(static_cast<std::size_t>(node_count) + 1, 0);
+void NodePlanes::sort(const Points3& nodes) {
+  begin_.assign(static_cast<std::size_t>(nodes.rows()) + 1, 0);
   for (const Plane& plane : planes_) ++begin_[static_cast<std::size_t>(plane.node) + 1];
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   sorted_.resize(planes_.size());
   for (const Plane& plane : planes_) sorted_[begin_[static_cast<std::size_t>(plane.node)]++] = plane;
   planes_.swap(sorted_);
+  runs_.clear();
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const Plane& plane = planes_[k];
+    const double ahead = plane.normal.dot(nodes.row(plane.node)) - plane.offset;
+    if (runs_.empty() || runs_.back().node != plane.node) runs_.push_back({k, k, plane.node, ahead});
+    runs_.back().end = k + 1;
+    runs_.back().clear = std::min(runs_.back().clear, ahead);
+  }
 }
 
-bool NodePlanes::limit(const Points3& from, Points3& to) const {
+bool NodePlanes::limit(const Points3& from, Points3& to, double moved) const {
   bool touched = false;
-  for (std::size_t begin = 0, end = 0; begin < planes_.size(); begin = end) {
-    const int node = planes_[begin].node;
-    while (end < planes_.size() && planes_[end].node == node) ++end;
-    to.row(node) = limited({begin, end}, from.row(node), to.row(node), touched).transpose();
-  }
+  for (const Run& run : runs_)
+    if (run.clear <= moved) to.row(run.node) = limited(run, from.row(run.node), to.row(run.node), touched).transpose();
   return touched;
 }
 
 Vec3 NodePlanes::limited(const Run& run, const Vec3& from, const Vec3& to, bool& touched) const {
   Vec3 p = to;
-  for (std::size_t k = run.first; k < run.second; ++k) {
+  bool stopped = false;
+  for (std::size_t k = run.begin; k < run.end; ++k) {
     const double beyond = planes_[k].normal.dot(p) - planes_[k].offset;
     if (beyond >= 0) continue;
     p -= beyond * planes_[k].normal;
-    touched = true;
+    stopped = true;
   }
+  if (!stopped) return to;
+  touched = true;
   double share = 1;  // where planes meet, what is left is shortened as a whole
-  for (std::size_t k = run.first; k < run.second; ++k) {
+  for (std::size_t k = run.begin; k < run.end; ++k) {
     const double ahead = planes_[k].normal.dot(p) - planes_[k].offset;
     if (ahead >= 0) continue;
     const double here = planes_[k].normal.dot(from) - planes_[k].offset;

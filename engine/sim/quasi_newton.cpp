@@ -138,8 +138,7 @@ bool QuasiNewton::search_line(const Energy& energy) {
   for (int halving = 0; halving <= options_.most_halvings; ++halving, step *= 0.5) {
     trial_ = nodes_ + step * direction_;
     double predicted = step * slope;
-    if (limit_) {
-      limit_(nodes_, trial_);
+    if (limit_ && limit_(nodes_, trial_, step * longest)) {
       const double* to = trial_.data();
       predicted = sum_of([&](Eigen::Index i) { return g[i] * (to[i] - from[i]); });
       if (!(predicted < 0)) continue;

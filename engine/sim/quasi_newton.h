@@ -22,8 +22,9 @@ struct QuasiNewtonOptions {
 class QuasiNewton {
  public:
   using Energy = std::function<double(const Points3& nodes, Points3& gradient)>;
-  // Shortens a move so that it stays within what is allowed; the move may turn a little.
-  using Limit = std::function<void(const Points3& from, Points3& to)>;
+  // Shortens a move, in which no node goes further than `longest` (m), so that it stays within what is allowed; the
+  // move may turn a little. False: it was allowed as it is.
+  using Limit = std::function<bool(const Points3& from, Points3& to, double longest)>;
 
   QuasiNewton(int node_count, const QuasiNewtonOptions& options);
 

@@ -54,19 +54,20 @@ class Relaxation {
     for (const Hold& hold : energy_.holds)
       if (nodes(hold.node, 1) < hold.height) matrix.coeffRef(hold.node, hold.node) += kHoldShare * hold.stiffness;
     for (const Pin& pin : energy_.pins) matrix.coeffRef(pin.node, pin.node) += pin.stiffness;
-    if (energy_.cloth_contact) matrix += layers(nodes);
+    if (energy_.cloth_contact) add_layers(nodes, matrix);
     if (!solver_.factor(matrix))
       throw Error(ErrorCode::DrapeFailed, "garment",
                   "the cloth's stiffness matrix cannot be factored; check the fabric");
   }
 
   // Layers that touch move together easily, apart with difficulty.
-  SparseMatrix layers(const Points3& nodes) const {
+  void add_layers(const Points3& nodes, SparseMatrix& matrix) const {
     std::vector<Eigen::Triplet<double>> entries;
     energy_.cloth_contact->pairs().add_stiffness(nodes, entries);
-    SparseMatrix matrix(nodes.rows(), nodes.rows());
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return kLayerShare * matrix;
+    if (entries.empty()) return;
+    SparseMatrix layers(nodes.rows(), nodes.rows());
+    layers.setFromTriplets(entries.begin(), entries.end());
+    matrix += kLayerShare * layers;
   }
 
   RelaxResult run(const Points3& start, Progress* progress) {
@@ -78,9 +79,10 @@ class Relaxation {
     if (energy_.edge_contact) energy_.edge_contact->look(start);
     if (energy_.cloth_contact) energy_.cloth_contact->refresh(start);
     if (energy_.cloth_contact || energy_.mirror)
-      minimiser.set_limit([this](const Points3& from, Points3& to) {
-        if (energy_.cloth_contact) energy_.cloth_contact->limit(from, to);
+      minimiser.set_limit([this](const Points3& from, Points3& to, double longest) {
+        const bool limited = energy_.cloth_contact && energy_.cloth_contact->limit(from, to, longest);
         if (energy_.mirror) symmetrise(*energy_.mirror, to);
+        return limited || energy_.mirror;
       });
     minimiser.start(start, evaluate);
     watched_ = watched_means(start);
@@ -134,16 +136,16 @@ class Relaxation {
 
   void look_around(QuasiNewton& minimiser, const QuasiNewton::Energy& evaluate) {
     ClothContact* self = energy_.cloth_contact;
-    if (!self || !outdated(*self)) return;
+    if (!self || !outdated(*self, minimiser.nodes())) return;
     looked_at_ = result_.iterations;
     if (self->refresh(minimiser.nodes())) minimiser.refresh(evaluate);
   }
 
   // Planes that stop a node slow down all of the cloth: they are put where the layers are now before long.
-  bool outdated(const ClothContact& self) const {
+  bool outdated(ClothContact& self, const Points3& nodes) const {
     const int since = result_.iterations - looked_at_;
     if (self.stale() || (self.hindered() && since >= options_.look_soon)) return true;
-    return since >= options_.look_around && (self.piercings() > 0 || self.moved() > kUsedReach * self.reach());
+    return since >= options_.look_around && (self.piercings() > 0 || self.moved_beyond(kUsedReach * self.reach(), nodes));
   }
 
   void judge(const QuasiNewton& minimiser, bool whole_round) {

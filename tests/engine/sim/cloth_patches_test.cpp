@@ -42,7 +42,8 @@ struct TwoPanels {
   // Pairs of triangles of different panels found near each other.
   long found(bool folded) const {
     ClothPatches patches(triangles, rest, panel);
-    const auto& near = patches.find_near(nodes(folded), 0.002);
+    EXPECT_TRUE(patches.update(nodes(folded), 0.001, 0.002));
+    const auto& near = patches.near();
     return std::count_if(near.begin(), near.end(), [&](const auto& pair) {
       return panel[static_cast<std::size_t>(pair.first)] != panel[static_cast<std::size_t>(pair.second)];
     });
@@ -62,6 +63,51 @@ TEST(ClothPatches, FindsPanelsFoldedOntoEachOtherAtTheirSeamWhicheverWayTheyFace
 TEST(ClothPatches, SmoothClothAcrossASeamIsHardlySearchedWhicheverWayItsPanelsFace) {
   EXPECT_LE(TwoPanels(false).found(false), kCells);
   EXPECT_EQ(TwoPanels(true).found(false), TwoPanels(false).found(false));
+}
+
+// Bent, but everywhere as good as flat: patches that are near each other with one between them lie in smooth cloth,
+// too.
+TEST(ClothPatches, PatchesOneApartInSmoothClothAreNotSearched) {
+  const TwoPanels panels(false);
+  ClothPatches patches(panels.triangles, panels.rest, panels.panel);
+  patches.update(panels.nodes(false), 0.01, 0.02);  // as wide as a patch
+  EXPECT_LE(patches.near().size(), 4 * kCells * kCells);  // a few at corners
+}
+
+TEST(ClothPatches, WhatLiesStillIsKeptWhileTheRestIsSearchedAnew) {
+  const TwoPanels panels(false);
+  constexpr double kReach = 0.001, kWider = 0.003;
+  ClothPatches patches(panels.triangles, panels.rest, panels.panel), anew = patches;
+  Points3 nodes = panels.nodes(true);
+  ASSERT_TRUE(patches.update(nodes, kReach, kWider));
+  EXPECT_FALSE(patches.update(nodes, kReach, kWider));
+  nodes.array() += 0.0005;
+  EXPECT_FALSE(patches.update(nodes, kReach, kWider));  // by less than half of kWider - kReach
+  for (int i = kCells + 6; i <= 2 * kCells; ++i)        // the end of the upper panel is lifted
+    for (int j = 0; j <= kCells; ++j) nodes(i * (kCells + 1) + j, 2) += 0.02;
+  ASSERT_TRUE(patches.update(nodes, kReach, kWider));
+  ASSERT_TRUE(anew.update(nodes, kReach, kWider));
+  const auto sorted = [](std::vector<std::pair<int, int>> pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  };
+  const auto kept = sorted(patches.near()), found = sorted(anew.near());
+  ASSERT_GT(found.size(), 100U);
+  EXPECT_EQ(std::adjacent_find(kept.begin(), kept.end()), kept.end());
+  const auto near = [&](const std::pair<int, int>& pair) {
+    const auto box = [&](int f) {
+      TriangleBox b;
+      for (int k = 0; k < 3; ++k) {
+        b.low = b.low.cwiseMin(nodes.row(panels.triangles(f, k)).transpose());
+        b.high = b.high.cwiseMax(nodes.row(panels.triangles(f, k)).transpose());
+      }
+      return b;
+    };
+    return box(pair.first).near(box(pair.second), kReach);
+  };
+  long missing = 0;
+  for (const auto& pair : found) missing += near(pair) && !std::binary_search(kept.begin(), kept.end(), pair);
+  EXPECT_EQ(missing, 0);
 }
 
 }  // namespace
