@@ -20,7 +20,6 @@ constexpr int kPlanTriangles = 600;   // of the garment: tears are chosen on so 
 constexpr double kPastMouth = 0.001;  // m
 constexpr double kStrained = 2.0;     // times the allowed stretch: share of a panel's area that strain in it explains
 constexpr double kLeastOff = 5e-5;    // m^2: less is crumbs
-constexpr double kLeastPart = 2e-5;   // m^2: what a dart leaves of an opening and is smaller is crumbs
 
 TearPatternOptions pass_options(const Pattern& pattern, const AlterPatternOptions& options, bool removing) {
   TearPatternOptions pass;
@@ -57,11 +56,6 @@ Loops wedge_outlines(const std::vector<DartWedge>& wedges, const Points2& rest) 
   return outlines;
 }
 
-std::vector<PolygonWithHoles> without(const PolygonWithHoles& cloth, const Loops& wedges) {
-  if (wedges.empty() || !cloth.holes.empty()) return {cloth};
-  return polygon_difference({cloth.outline}, wedges);
-}
-
 // The largest part: crumbs come from darts of the target that cross themselves.
 std::vector<Vec2> outline_without(const std::vector<Vec2>& outline, const Loops& wedges) {
   if (wedges.empty()) return outline;
@@ -75,14 +69,10 @@ std::vector<Vec2> outline_without(const std::vector<Vec2>& outline, const Loops&
   return largest;
 }
 
-std::vector<AlteredRegion> regions_of(const RecutPanel& recut, const std::string& prefix, const Loops& wedges) {
+std::vector<AlteredRegion> regions_of(const RecutPanel& recut, const std::string& prefix) {
   std::vector<AlteredRegion> regions;
   for (const PolygonWithHoles& opening : recut.openings)
-    for (PolygonWithHoles& part : without(opening, wedges))
-      if (area(part) > kLeastPart) {
-        const double size = area(part);
-        regions.push_back({prefix + std::to_string(regions.size() + 1), std::move(part), size, -1});
-      }
+    regions.push_back({prefix + std::to_string(regions.size() + 1), opening, area(opening), -1});
   return regions;
 }
 
@@ -206,8 +196,8 @@ PanelAlteration alteration_of(const Panel& panel, const TornPattern& inserting, 
   result.kept = kept_cloth(inserting.sheets[p], removal, original_wedges);
   result.cut_lines = cut_lines(inserting.sheets[p]);
   for (const auto& kept : insertion.kept) result.kept_in_target.push_back(outline_without(kept, target_wedges));
-  result.insertions = regions_of(insertion, panel.name + "_insertion_", target_wedges);
-  result.removals = regions_of(removal, panel.name + "_removal_", original_wedges);
+  result.insertions = regions_of(insertion, panel.name + "_insertion_");
+  result.removals = regions_of(removal, panel.name + "_removal_");
   result.insertion_pass = inserting.panels[p];
   result.removal_pass = removing.panels[p];
   result.cut_back = insertion.cut_back;
@@ -253,9 +243,11 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
     insert_options.l_shapes = remove_options.l_shapes = options.l_shapes;
     insert_options.least_strip = options.least_strip;
     insert_options.side_room = side_rooms(pattern, static_cast<int>(p), sheet.sides, options.least_allowance_left);
-    const std::array<RecutPanel, 2> recuts = {recut(sheet, insert_options), recut(removing.sheets[p], remove_options)};
     const std::array<Loops, 2> wedges = {wedge_outlines(sheet.wedges, mesh.rest),
                                          wedge_outlines(sheet.wedges, target_rest)};
+    insert_options.wedges = wedges[1];
+    remove_options.wedges = wedges[0];
+    const std::array<RecutPanel, 2> recuts = {recut(sheet, insert_options), recut(removing.sheets[p], remove_options)};
     filled_targets.push_back(recuts[0].wanted);
     result.dropped_regions += recuts[0].dropped + recuts[1].dropped;
     result.panels.push_back(alteration_of(pattern.panels[p], inserting, removing, p, recuts, wedges));

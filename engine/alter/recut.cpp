@@ -5,11 +5,17 @@
 
 #include "engine/alter/part_openings.h"
 #include "engine/alter/propagate_tear.h"
+#include "engine/geometry/inner_point.h"
 
 namespace toile {
 namespace {
 
-constexpr double kSamePoint = 1e-6;  // m, along a side: cloth and outline share one point there
+constexpr double kSamePoint = 1e-6;   // m, along a side: cloth and outline share one point there
+constexpr double kLeastPart = 2e-5;   // m^2: what a dart leaves of an opening and is smaller is crumbs
+constexpr double kJustInside = 1e-3;  // m
+constexpr double kWideEnough = 0.98;  // of the least strip: widths are measured to a few per cent
+constexpr int kPlaces = 16;           // of a run that are looked at
+constexpr int kDeepenings = 4;        // of strips that are too narrow
 
 // Points of every wanted side, shared by the outline and by the cloth that hangs on it: equal places, equal numbers.
 class SharedPoints {
@@ -132,11 +138,6 @@ std::vector<OpenRun> open_runs(const OpenRun& whole, double least_width) {
   return runs;
 }
 
-// Whether it is less open than a strip that can be sewn, and more than the side's turned-in cloth gives.
-bool too_narrow(const OpenRun& run, double room, const RecutOptions& options) {
-  return run.largest() > std::max(room, options.least_width) && run.largest() < options.least_strip;
-}
-
 // What lies within `depth` of a wanted side, in pieces.
 Loops band_along(const SideCurve& side, double depth) {
   Loops band;
@@ -173,24 +174,113 @@ double sum_of_areas(const std::vector<std::vector<Vec2>>& outlines) {
   return sum;
 }
 
-void cut_back_narrow_sides(const Sheet& sheet, const RecutOptions& options, RecutPanel& panel) {
-  Loops bands;
-  for (int side = 0; side < static_cast<int>(options.side_room.size()); ++side)
-    for (const OpenRun& run : open_runs(all_along(sheet, side), options.least_width)) {
-      if (!too_narrow(run, options.side_room[static_cast<std::size_t>(side)], options)) continue;
-      const SideCurve& curve = sheet.wanted_sides[static_cast<std::size_t>(side)];
-      const double depth = options.least_strip;
-      for (auto& part : run.from_start&& run.to_end ? band_along(curve, depth) : deeper_run(curve, run, depth))
-        bands.push_back(std::move(part));
+void add_without_wedges(const PolygonWithHoles& opening, const Loops& wedges, std::vector<PolygonWithHoles>& openings) {
+  if (wedges.empty() || !opening.holes.empty()) {
+    openings.push_back(opening);
+    return;
+  }
+  for (PolygonWithHoles& part : polygon_difference({opening.outline}, wedges))
+    if (area(part) > kLeastPart) openings.push_back(std::move(part));
+}
+
+// What the kept cloth leaves open, in parts that can be sewn.
+void find_openings(const RecutOptions& options, RecutPanel& panel) {
+  panel.openings.clear();
+  panel.dropped = 0;
+  const PartOpeningOptions parting{options.least_area, options.least_width, options.least_strip, options.l_shapes};
+  for (PolygonWithHoles& opening : polygon_difference({panel.wanted}, panel.kept)) {
+    fill_crumbs(options.least_area, opening);
+    if (!opening.holes.empty()) {
+      panel.openings.push_back(std::move(opening));
+      continue;
     }
-  if (bands.empty()) return;
-  panel.cut_back = sum_of_areas(panel.kept);
+    for (const auto& part : parted_at_necks(opening.outline, panel.wanted, parting)) {
+      if (!worth_sewing(part, parting)) {
+        ++panel.dropped;
+        continue;
+      }
+      for (auto& strip : strips_of(part, parting))
+        add_without_wedges({std::move(strip), {}}, options.wedges, panel.openings);
+    }
+  }
+}
+
+// A run that needs a strip, and how far the cloth is cut back there: 0 while the strip is deep enough by itself.
+struct StripRun {
+  int side;
+  OpenRun run;
+  double depth;
+};
+
+std::vector<StripRun> strip_runs(const Sheet& sheet, const RecutOptions& options) {
+  std::vector<StripRun> strips;
+  for (int side = 0; side < static_cast<int>(options.side_room.size()); ++side)
+    for (OpenRun& run : open_runs(all_along(sheet, side), options.least_width)) {
+      const double open = run.largest();
+      if (open <= std::max(options.side_room[static_cast<std::size_t>(side)], options.least_width)) continue;
+      strips.push_back({side, std::move(run), open < options.least_strip ? options.least_strip : 0.0});
+    }
+  return strips;
+}
+
+std::vector<std::vector<Vec2>> cut_back(const Sheet& sheet, const std::vector<StripRun>& strips, double least_area,
+                                        const std::vector<std::vector<Vec2>>& cloth) {
+  Loops bands;
+  for (const auto& [side, run, depth] : strips) {
+    if (depth == 0.0) continue;
+    const SideCurve& curve = sheet.wanted_sides[static_cast<std::size_t>(side)];
+    for (auto& part : run.from_start&& run.to_end ? band_along(curve, depth) : deeper_run(curve, run, depth))
+      bands.push_back(std::move(part));
+  }
+  if (bands.empty()) return cloth;
   std::vector<std::vector<Vec2>> kept;
-  for (const auto& outline : panel.kept)
+  for (const auto& outline : cloth)
     for (PolygonWithHoles& part : polygon_difference({outline}, bands))
-      if (area(part) >= options.least_area) kept.push_back(std::move(part.outline));
-  panel.kept = std::move(kept);
-  panel.cut_back -= sum_of_areas(panel.kept);
+      if (area(part) >= least_area) kept.push_back(std::move(part.outline));
+  return kept;
+}
+
+// Whether a strip lies at some place of a run.
+bool lies_at(const std::vector<Vec2>& strip, const Sheet& sheet, const StripRun& at) {
+  const SideCurve& side = sheet.wanted_sides[static_cast<std::size_t>(at.side)];
+  const double from = at.run.at.front(), to = at.run.at.back();
+  for (int i = 1; i < kPlaces; ++i) {
+    const SideFoot foot = side.closest(side.point(from + (to - from) * i / kPlaces));
+    if (inside_polygon(strip, foot.point - kJustInside * foot.normal)) return true;
+  }
+  return false;
+}
+
+// Deepens the runs of strips in which the circle does not lie; false where all are wide enough.
+bool deepen(const Sheet& sheet, const RecutOptions& options, const RecutPanel& panel, std::vector<StripRun>& strips) {
+  bool changed = false;
+  std::vector<double> missing(strips.size(), 0.0);
+  for (const PolygonWithHoles& opening : panel.openings) {
+    const double width = 2.0 * roomiest_point(opening.outline).clearance;
+    if (width >= kWideEnough * options.least_strip) continue;
+    for (std::size_t i = 0; i < strips.size(); ++i)
+      if (lies_at(opening.outline, sheet, strips[i])) missing[i] = std::max(missing[i], options.least_strip - width);
+  }
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    if (missing[i] == 0.0) continue;
+    double& depth = strips[i].depth;
+    const bool whole = strips[i].run.from_start && strips[i].run.to_end;
+    const double before = depth > 0.0 ? depth : whole ? options.least_strip : strips[i].run.largest();
+    depth = before + (depth > 0.0 || !whole ? missing[i] : 0.0);
+    changed = true;
+  }
+  return changed;
+}
+
+void make_room_for_strips(const Sheet& sheet, const RecutOptions& options, RecutPanel& panel) {
+  std::vector<StripRun> strips = strip_runs(sheet, options);
+  const std::vector<std::vector<Vec2>> cloth = panel.kept;
+  for (int pass = 0; pass <= kDeepenings; ++pass) {
+    panel.kept = cut_back(sheet, strips, options.least_area, cloth);
+    find_openings(options, panel);
+    if (!deepen(sheet, options, panel, strips)) break;
+  }
+  panel.cut_back = sum_of_areas(cloth) - sum_of_areas(panel.kept);
 }
 
 }  // namespace
@@ -199,31 +289,12 @@ RecutPanel recut(const Sheet& sheet, const RecutOptions& options) {
   const SharedPoints shared(sheet);
   RecutPanel result;
   result.wanted = wanted_outline(sheet, shared);
-  result.wanted_area = signed_area(result.wanted);
   for (const auto& loop : border_loops(sheet)) result.kept.push_back(kept_outline(sheet, loop, shared));
   const bool whole = sheet.cuts.empty() && std::all_of(sheet.vertices.begin(), sheet.vertices.end(), [](const auto& v) {
                        return std::all_of(v.anchors.begin(), v.anchors.end(),
                                           [](const SheetAnchor& a) { return a.side < 0 || a.attached; });
                      });
-  if (whole) return result;
-  cut_back_narrow_sides(sheet, options, result);
-  const PartOpeningOptions parting{options.least_area, options.least_width, options.least_strip, options.l_shapes};
-  for (PolygonWithHoles& opening : polygon_difference({result.wanted}, result.kept)) {
-    fill_crumbs(options.least_area, opening);
-    if (!opening.holes.empty()) {
-      result.opening_area += area(opening);
-      result.openings.push_back(std::move(opening));
-      continue;
-    }
-    for (const auto& part : parted_at_necks(opening.outline, result.wanted, parting)) {
-      if (!worth_sewing(part, parting)) {
-        ++result.dropped;
-        continue;
-      }
-      result.opening_area += signed_area(part);
-      for (auto& strip : strips_of(part, parting)) result.openings.push_back({std::move(strip), {}});
-    }
-  }
+  if (!whole) make_room_for_strips(sheet, options, result);
   return result;
 }
 

@@ -15,11 +15,15 @@ constexpr double kAttachment = 1e3;  // weight of sliding sides, relative to the
 constexpr double kProximal = 1e-6;   // of the diagonal: holds cloth that nothing else holds
 // How stiff long cloth is to shear within the limit, relative to stretch: free shear would let a trouser leg lean as
 // far as the limit allows, a hand's breadth at the hem, where letting a side go upright costs hardly any stretch. Short
-// cloth leans little, and its free shear spares it cuts.
+// cloth leans little, and what is sewn on fewer than two sides leans without taking other panels along: there free
+// shear spares cuts.
 constexpr double kShear = 0.2;
-constexpr double kShort = 0.6, kLong = 0.9;  // m
+constexpr double kShort = 0.5, kLong = 0.6;  // m
 
 double shear_stiffness(const Sheet& sheet) {
+  const auto sewn =
+      std::count_if(sheet.sides.begin(), sheet.sides.end(), [](const PanelSide& side) { return side.sewn; });
+  if (sewn < 2) return 0.0;
   return kShear * std::clamp((extent_of(sheet).maxCoeff() - kShort) / (kLong - kShort), 0.0, 1.0);
 }
 

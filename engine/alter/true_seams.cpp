@@ -47,10 +47,8 @@ class Truing {
     return static_cast<std::size_t>(chains_[static_cast<std::size_t>(chain)].piece);
   }
   bool is_fixed(int chain) const { return fixed_[piece_of(chain)]; }
-  bool is_new(int chain) const {
-    const SewnPiece& piece = pieces_[piece_of(chain)];
-    return !is_fixed(chain) && (piece.insertion >= 0 || piece.recut);
-  }
+  bool is_new_piece(std::size_t i) const { return !fixed_[i] && (pieces_[i].insertion >= 0 || pieces_[i].recut); }
+  bool is_new(int chain) const { return is_new_piece(piece_of(chain)); }
   double& wanted(int chain) { return wanted_[static_cast<std::size_t>(chain)]; }
 
   static bool near(double a, double b, double most) {
@@ -82,7 +80,7 @@ class Truing {
   // Mean warp and weft stretch that a new piece needs for the lengths wanted of it; what else is wanted of its other
   // chains begins from there.
   void take_strain(std::size_t i) {
-    if (fixed_[i] || (pieces_[i].insertion < 0 && !pieces_[i].recut)) return;
+    if (!is_new_piece(i)) return;
     Mat2 normal = Mat2::Zero();
     Vec2 right = Vec2::Zero();
     double length = 0.0;
@@ -125,7 +123,7 @@ class Truing {
   }
 
   bool true_piece(std::size_t i, double edge_length) {
-    TruedPiece piece(borders_[i], pieces_[i].map, scale_[i], edge_length);
+    TruedPiece piece(borders_[i], pieces_[i].map, scale_[i], is_new_piece(i), edge_length);
     for (std::size_t c = 0; c < chains_.size(); ++c)
       if (static_cast<std::size_t>(chains_[c].piece) == i && sewn_[c]) piece.want(chains_[c], wanted_[c]);
     return piece.give(borders_[i], pieces_[i].map);

@@ -13,7 +13,8 @@ namespace toile {
 namespace {
 
 constexpr double kLengthWeight = 1e3;  // w, m
-constexpr double kHold = 25.0;         // h, 1/m^2: what is moved dies out over 20 cm
+constexpr double kHold = 25.0;         // h, 1/m^2: what is moved dies out over 20 cm ...
+constexpr double kHoldNew = 2.0;       // ... in new cloth, which is not cut yet and may bend, over 70 cm
 constexpr double kCoarse = 0.025;      // m: edge length of the mesh, at least
 constexpr double kSettled = 1e-6;      // m
 constexpr double kFarthest = 0.05;     // m a point may be moved: more is no truing
@@ -27,7 +28,9 @@ Points2 rows_of(const std::vector<Vec2>& points) {
 
 }  // namespace
 
-TruedPiece::TruedPiece(const PieceBorder& border, const PieceMap& map, const Vec2& scale, double edge_length) {
+TruedPiece::TruedPiece(const PieceBorder& border, const PieceMap& map, const Vec2& scale, bool is_new,
+                       double edge_length)
+    : hold_(is_new ? kHoldNew : kHold) {
   std::vector<Vec2> outline;
   const double coarse = std::max(kCoarse, edge_length);
   const std::size_t count = border.vertices.size();
@@ -143,7 +146,7 @@ double TruedPiece::step() {
   }
   for (int v = 0; v < count; ++v) {
     const auto i = static_cast<std::size_t>(v);
-    const double hold = kHold * std::max(1e-9, area_[i]);
+    const double hold = hold_ * std::max(1e-9, area_[i]);
     for (int k = 0; k < 2; ++k) {
       entries_.emplace_back(2 * v + k, 2 * v + k, hold);
       right_(2 * v + k) -= hold * (now_[i][k] - before_[i][k]);

@@ -15,8 +15,9 @@ namespace toile {
 
 class TruedPiece {
  public:
-  // Lies before where `border.rest` and `map.rest` have it, each of its warp and weft times `scale`.
-  TruedPiece(const PieceBorder& border, const PieceMap& map, const Vec2& scale, double edge_length);
+  // Lies before where `border.rest` and `map.rest` have it, each of its warp and weft times `scale`. `is_new`: not cut
+  // out of the original cloth.
+  TruedPiece(const PieceBorder& border, const PieceMap& map, const Vec2& scale, bool is_new, double edge_length);
 
   // A chain of the border shall be so long.
   void want(const BorderChain& chain, double length);
@@ -34,6 +35,7 @@ class TruedPiece {
   void add_metric(Eigen::Index f);
   const Vec2& before(int v) const { return before_[static_cast<std::size_t>(v)]; }
 
+  double hold_;
   Points2 target_;                          // of the mesh's points, in the wanted panel
   std::vector<Vec2> start_, before_, now_;  // flat: as handed in, scaled, trued
   Triangles triangles_;

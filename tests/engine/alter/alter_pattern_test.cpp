@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/geometry/inner_point.h"
 #include "tests/engine/alter/altered_grid.h"
 #include "tests/support/count_tears.h"
 
@@ -231,6 +232,20 @@ TEST(AlterPattern, AStripAtASeamHasTheLeastWidthUnlessTheAllowanceGivesWhatIsAsk
   const AlterPatternResult result = alter(garment, scaled(1.05, 1), options);
   expect_areas(result, {120, 0}, 1);
   EXPECT_EQ(result.ticket.operations.at(0).fabric, FabricNeed::WithinAllowance);
+}
+
+// Its depth is more than the least width, but it soon ends in nothing: it is made deeper until there is room in it.
+TEST(AlterPattern, AShortWedgeHasRoomForTheLeastWidth) {
+  const auto corner = [](int, const Vec2& p) {
+    return Vec2(p.x() - (1 - p.x() / 0.4) * 0.052 * std::max(0.0, (p.y() - 0.4) / 0.2), p.y());
+  };
+  AlterPatternOptions options;
+  options.least_strip = 0.05;
+  const AlterPatternResult result = alter(with_locked_sides(sheet(), {1}), corner, options);
+  ASSERT_EQ(result.panels[0].insertions.size(), 1u);
+  EXPECT_GT(2 * roomiest_point(result.panels[0].insertions[0].shape.outline).clearance, 0.97 * options.least_strip);
+  EXPECT_GT(result.panels[0].cut_back, 0.0);
+  EXPECT_LT(result.area_imbalance, 0.01);
 }
 
 TEST(AlterPattern, ScaleChangesNothingButTheNumbers) {
