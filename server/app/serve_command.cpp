@@ -6,6 +6,7 @@
 #include "jobs/worker/inspection.h"
 #include "jobs/worker/sweeper.h"
 #include "server/app/command.h"
+#include "server/app/config_file.h"
 #include "server/app/demo.h"
 #include "server/app/engine_jobs.h"
 #include "server/app/files.h"
@@ -135,7 +136,10 @@ void add_serve_command(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("serve", "Answer over HTTP and work off jobs; all is kept in --data");
   add_work_settings(*command, *work);
   add_serve_settings(*command, *settings);
-  command->callback([work, settings, &context] { serve(*work, *settings, *context.progress.cancelled); });
+  command->callback([command, work, settings, &context] {
+    apply_config_file(*command, work->config);
+    serve(*work, *settings, *context.progress.cancelled);
+  });
 }
 
 }  // namespace toile::app

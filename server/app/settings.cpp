@@ -32,9 +32,7 @@ CLI::Option* setting(CLI::App& command, const std::string& name, T& value, const
 }  // namespace
 
 void add_work_settings(CLI::App& command, WorkSettings& settings) {
-  command.set_config("--config", "", "File with settings, one `name = value` a line")
-      ->type_name("FILE")
-      ->envname("TOILE_CONFIG");
+  setting(command, "--config", settings.config, "File with settings, one `name = value` a line");
   setting(command, "--data", settings.data, "Folder that keeps everything: jobs, bodies, garments, results");
   setting(command, "--workers", settings.workers, "Jobs worked on at a time; 0: one for each processor core")
       ->check(CLI::Range(0, 256));
@@ -79,7 +77,7 @@ void add_serve_settings(CLI::App& command, ServeSettings& settings) {
           "File with the secret that signs webhooks; without it none are sent");
   setting(command, "--webhook-private", settings.webhook_private,
           "Let webhooks go to addresses of this machine and its network");
-  setting(command, "--demo", settings.demo, "Store a garment and two bodies at start, and print lines to try");
+  setting(command, "--demo", settings.demo, "Store a garment and bodies at start, and print lines to try");
 }
 
 QueueOptions queue_options(const WorkSettings& settings) {

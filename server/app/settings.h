@@ -12,6 +12,7 @@
 namespace toile::app {
 
 struct WorkSettings {
+  std::string config;  // file with settings; empty: none
   std::string data = "toile-data";
   int workers = 0;  // jobs at a time; 0: one per processor core and job thread
   int job_threads = 1;
@@ -39,6 +40,7 @@ struct ServeSettings {
   bool demo = false;
 };
 
+// Both commands then call apply_config_file: what flags and variables leave open comes from there.
 void add_work_settings(CLI::App& command, WorkSettings& settings);
 void add_serve_settings(CLI::App& command, ServeSettings& settings);
 

@@ -51,16 +51,6 @@ std::string unknown_command(const CLI::App& app, const std::string& name) {
   return "there is no command \"" + name + "\"" + instead_of(name, known, "", "toile");
 }
 
-std::string unknown_option(const CLI::App& app, const CLI::App* command, const std::string& name) {
-  std::vector<std::string> known;
-  for (const CLI::App* one : {&app, command})
-    if (one)
-      for (const CLI::Option* option : one->get_options())
-        known.insert(known.end(), option->get_lnames().begin(), option->get_lnames().end());
-  const std::string place = command ? "toile " + command->get_name() : "toile";
-  return "there is no option --" + name + instead_of(name, known, "--", place);
-}
-
 const CLI::Option* find_option(const CLI::App& app, const CLI::App* command, const std::string& name) {
   if (command)
     if (const CLI::Option* own = command->get_option_no_throw("--" + name)) return own;
@@ -68,6 +58,14 @@ const CLI::Option* find_option(const CLI::App& app, const CLI::App* command, con
 }
 
 }  // namespace
+
+std::string likely_option(const CLI::App& command, const std::string& name) {
+  std::vector<std::string> known;
+  for (const CLI::App* one = &command; one; one = one->get_parent())
+    for (const CLI::Option* option : one->get_options())
+      known.insert(known.end(), option->get_lnames().begin(), option->get_lnames().end());
+  return instead_of(name, known, "--", (command.get_parent() ? "toile " : "") + command.get_name());
+}
 
 std::optional<std::string> find_wrong_word(const CLI::App& app, const std::vector<std::string>& words) {
   const CLI::App* command = nullptr;
@@ -77,7 +75,7 @@ std::optional<std::string> find_wrong_word(const CLI::App& app, const std::vecto
     if (word.starts_with("--")) {
       const std::string name = word.substr(2, word.find('=') - 2);
       const CLI::Option* option = find_option(app, command, name);
-      if (!option) return unknown_option(app, command, name);
+      if (!option) return "there is no option --" + name + likely_option(command ? *command : app, name);
       if (option->get_items_expected_max() > 0 && word.find('=') == word.npos) ++i;  // what follows is its value
     } else if (!command && !word.starts_with('-')) {
       command = find_command(app, word);

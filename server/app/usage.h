@@ -15,6 +15,9 @@ namespace toile::app {
 // right one is missing. Values are not looked at.
 std::optional<std::string> find_wrong_word(const CLI::App& app, const std::vector<std::string>& words);
 
+// "; did you mean --NAME?", or where the options of the command are told, as the end of a sentence.
+std::string likely_option(const CLI::App& command, const std::string& name);
+
 // What the library says of a wrong line, and where to read more.
 std::string tell_usage(const CLI::App* app, const CLI::Error& error);
 

@@ -2,6 +2,7 @@
 #include <thread>
 
 #include "server/app/command.h"
+#include "server/app/config_file.h"
 #include "server/app/json_log.h"
 #include "server/app/settings.h"
 
@@ -27,7 +28,10 @@ void add_work_command(CLI::App& app, Context& context) {
   CLI::App* command =
       app.add_subcommand("work", "Work off jobs of a server from a process of its own, in the same --data");
   add_work_settings(*command, *settings);
-  command->callback([settings, &context] { work(*settings, *context.progress.cancelled); });
+  command->callback([command, settings, &context] {
+    apply_config_file(*command, settings->config);
+    work(*settings, *context.progress.cancelled);
+  });
 }
 
 }  // namespace toile::app
