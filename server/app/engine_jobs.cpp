@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/io/body_json.h"
+#include "engine/io/json.h"
 #include "engine/io/options_json.h"
 #include "engine/io/record_json.h"
 #include "engine/outputs.h"
@@ -102,8 +103,7 @@ JobReport drape_job(const JobContext& context) {
 JobReport inspect_body_job(const JobContext& context) {
   const BodyInput input = body_input(context.inputs.at("input"));
   Record about;
-  const bool made = json::parse(context.inputs.at("input").fields).value("format", "") == "measurements";
-  if (input.bytes.empty() || made) {
+  if (input.bytes.empty() || looks_like_json(input.bytes)) {
     const Body body = read_body(input);
     about.add("vertices", body.surface.vertex_count()).add("triangles", body.surface.triangle_count());
   } else {

@@ -40,6 +40,14 @@ Response show(Service& service, const Request& request) {
   // Results are made from strangers' files: no script in them may run in this server's name.
   response.with("Content-Security-Policy", "default-src 'none'; img-src data:; style-src 'unsafe-inline'; sandbox");
   response.content_type = artifact->content_type;
+  response.with("Accept-Ranges", "bytes");
+  const std::string range = request.header("Range"), condition = request.header("If-Range");
+  if (request.method == "GET" && !range.empty() && (condition.empty() || condition == tag)) {
+    response.range = byte_range_of(range, artifact->size);
+    response.status = 206;
+    response.with("Content-Range", "bytes " + std::to_string(response.range->first) + "-" +
+                                       std::to_string(response.range->last) + "/" + std::to_string(artifact->size));
+  }
   response.file = service.store.artifacts.path_of(artifact->sha256);
   return response;
 }

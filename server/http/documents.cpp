@@ -145,11 +145,12 @@ std::string next_link(const Request& request, std::size_t count, int limit, std:
 }
 
 json read_json(Request& request, std::int64_t max_bytes, std::string* raw) {
-  const std::string type = request.header("Content-Type");
-  if (!type.starts_with("application/json"))
+  if (request.media_type() != "application/json")
     throw Problem{415, "format_unknown", "send Content-Type: application/json", {}, {}};
   if (request.content_length > max_bytes)
     throw Problem{413, "limit_exceeded", "a request may have at most " + std::to_string(max_bytes) + " bytes", {}, {}};
+  if (request.content_length == 0)
+    throw Problem{400, "file_malformed", "the request is empty: send a JSON document", {}, {}};
   std::string text;
   const bool complete = request.read_body([&](std::span<const std::uint8_t> bytes) {
     text.append(bytes.begin(), bytes.end());

@@ -6,18 +6,14 @@
 #include <charconv>
 #include <set>
 
+#include "server/http/byte_range.h"
+
 namespace toile::http {
 
 namespace {
 
 Problem refuse(int status, std::string code, std::string detail) {
   return {status, std::move(code), std::move(detail), {}, {}};
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
-  return out;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -68,15 +64,17 @@ void take_length(std::string_view value, Head& head, bool& seen) {
 }
 
 void check_header(std::string_view name, std::string_view value, Head& head, bool& length_seen) {
-  const std::string key = lower(name);
+  const std::string key = lower_case(name);
   if (key == "transfer-encoding")
     throw refuse(411, "length_required", "send the body with Content-Length, not in chunks");
-  if (key == "content-encoding" && lower(value) != "identity")
+  if (key == "content-encoding" && lower_case(value) != "identity")
     throw refuse(415, "content_encoding", "send the body uncompressed");
   if (key == "range" && value.find(',') != std::string_view::npos)
     throw refuse(416, "many_ranges", "ask for one range at a time");
+  if (key == "range" && !is_byte_range(value))
+    throw refuse(416, "bad_range", "a range reads bytes=FROM-TO, bytes=FROM- or bytes=-COUNT");
   if (key == "content-length") take_length(value, head, length_seen);
-  if (key == "expect") head.expects_continue = lower(value) == "100-continue";
+  if (key == "expect") head.expects_continue = lower_case(value) == "100-continue";
 }
 
 HeadResult parse(std::string_view head_text, const HeadLimits& limits) {

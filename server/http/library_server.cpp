@@ -103,15 +103,17 @@ Request request_of(const httplib::Request& given) {
   return request;
 }
 
-void send_file(const std::filesystem::path& path, const std::string& type, httplib::Response& out) {
-  const auto file = std::make_shared<std::ifstream>(path, std::ios::binary);
+void send_file(const Response& response, httplib::Response& out) {
+  const auto file = std::make_shared<std::ifstream>(*response.file, std::ios::binary);
   std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
+  const auto whole = static_cast<std::int64_t>(std::filesystem::file_size(*response.file, error));
   if (!*file || error) throw Error(ErrorCode::StorageFailed, "artifact", "a stored file cannot be read");
-  if (size == 0) return out.set_content("", type);
-  out.set_content_provider(size, type, [file](size_t offset, size_t length, httplib::DataSink& sink) {
+  const ByteRange range = response.range.value_or(ByteRange{0, whole - 1});
+  if (range.size() == 0) return out.set_content("", response.content_type);
+  const auto size = static_cast<std::size_t>(range.size());
+  out.set_content_provider(size, response.content_type, [=](size_t offset, size_t length, httplib::DataSink& sink) {
     std::vector<char> piece(std::min<std::size_t>(length, 1 << 16));
-    file->seekg(static_cast<std::streamoff>(offset));
+    file->seekg(range.first + static_cast<std::streamoff>(offset));
     file->read(piece.data(), static_cast<std::streamsize>(piece.size()));
     return *file && sink.write(piece.data(), piece.size());
   });
@@ -120,7 +122,7 @@ void send_file(const std::filesystem::path& path, const std::string& type, httpl
 void put_response(Response response, httplib::Response& out) {
   out.status = response.status;
   for (const auto& [name, value] : response.headers) out.headers.emplace(name, value);
-  if (response.file) return send_file(*response.file, response.content_type, out);
+  if (response.file) return send_file(response, out);
   if (response.stream) {
     const auto stream = std::make_shared<std::function<void(const StreamSink&)>>(std::move(response.stream));
     out.set_chunked_content_provider(response.content_type, [stream](size_t, httplib::DataSink& sink) {
@@ -179,6 +181,11 @@ struct LibraryServer::Implementation : httplib::Server {
       return HandlerResponse::Handled;
     });
     set_tcp_nodelay(true);
+    // The library would share the port with any other server that listens there.
+    set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
   }
 
   bool process_and_close_socket(socket_t socket) override {
@@ -191,6 +198,7 @@ struct LibraryServer::Implementation : httplib::Server {
     bool closed = false;
     const bool answered = process_request(stream, false, closed, [](httplib::Request& request) {
       request.headers.erase("Accept-Encoding");  // answers go out as they are stored: an ETag names those bytes
+      request.ranges.clear();  // endpoints do their own: the library answers 200, and past the end with nonsense
       request.headers.erase(kHiddenType);
       const std::string type = request.get_header_value("Content-Type");
       request.headers.erase("Content-Type");
@@ -216,7 +224,8 @@ int LibraryServer::bind(const std::string& host, int port) {
                                                                 : -1;
   if (bound <= 0)
     throw Error(ErrorCode::BadUsage, host + ":" + std::to_string(port),
-                "cannot listen there: is another server running? choose another --port");
+                "cannot listen there: is another server running, or is this no address of this machine? choose another "
+                "--port or --host");
   return bound;
 }
 

@@ -12,7 +12,11 @@
 #include <string_view>
 #include <vector>
 
+#include "server/http/byte_range.h"
+
 namespace toile::http {
+
+std::string lower_case(std::string_view text);  // ASCII letters
 
 struct CaseBlind {
   bool operator()(std::string_view a, std::string_view b) const;
@@ -34,6 +38,7 @@ struct Request {
   std::string remote;
 
   std::string header(std::string_view name) const;
+  std::string media_type() const;  // Content-Type without parameters, in small letters
   std::optional<std::string> parameter(const std::string& name) const;
   const std::string& path_value(const std::string& name) const { return path_values.at(name); }
 };
@@ -46,7 +51,8 @@ struct Response {
   std::string content_type;
   std::vector<std::pair<std::string, std::string>> headers;
   std::string body;
-  std::optional<std::filesystem::path> file;      // sent instead of `body`
+  std::optional<std::filesystem::path> file;      // sent instead of `body`,
+  std::optional<ByteRange> range;                 // or these bytes of it
   std::function<void(const StreamSink&)> stream;  // sent instead of both, until it returns
 
   Response& with(std::string name, std::string value) {

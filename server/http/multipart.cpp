@@ -21,12 +21,6 @@ std::string quoted(std::string_view line, std::string_view name) {
   return end == std::string_view::npos ? std::string() : std::string(line.substr(from, end - from));
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
-  return out;
-}
-
 }  // namespace
 
 MultipartReader::MultipartReader(std::string boundary, MultipartLimits limits, OnPart on_part, OnBytes on_bytes)
@@ -53,7 +47,7 @@ void MultipartReader::begin_part(std::string_view head) {
   for (std::size_t begin = 0; begin < head.size();) {
     const std::size_t end = std::min(head.find("\r\n", begin), head.size());
     const std::string_view line = head.substr(begin, end - begin);
-    if (lower(line.substr(0, 20)) == "content-disposition:") {
+    if (lower_case(line.substr(0, 20)) == "content-disposition:") {
       part.name = quoted(line, "name");
       part.filename = quoted(line, "filename");
     }
@@ -98,8 +92,8 @@ bool MultipartReader::step() {
 }
 
 std::string multipart_boundary(std::string_view content_type) {
-  if (lower(content_type.substr(0, 19)) != "multipart/form-data") return {};
-  const std::size_t at = lower(content_type).find("boundary=");
+  if (lower_case(content_type.substr(0, 19)) != "multipart/form-data") return {};
+  const std::size_t at = lower_case(content_type).find("boundary=");
   if (at == std::string::npos) return {};
   std::string_view value = content_type.substr(at + 9);
   value = value.substr(0, value.find(';'));

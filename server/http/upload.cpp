@@ -172,10 +172,9 @@ Upload read_upload(Service& service, Request& request, InputKind kind) {
                   {}};
   const Seat seat(service.uploading, service.options.max_uploads);
   if (!seat) throw Problem{503, "busy", "too many uploads at a time: try again", {}, {{"Retry-After", "1"}}};
-  const std::string type = request.header("Content-Type");
-  const std::string boundary = multipart_boundary(type);
+  const std::string boundary = multipart_boundary(request.header("Content-Type"));
   if (!boundary.empty()) return read_multipart(service, request, kind, boundary);
-  if (type.starts_with("application/json")) return read_json_upload(service, request, kind);
+  if (request.media_type() == "application/json") return read_json_upload(service, request, kind);
   throw Problem{415, "format_unknown", "send multipart/form-data with a part `file`, or application/json", {}, {}};
 }
 

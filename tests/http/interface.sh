@@ -32,7 +32,15 @@ artifact=$url/v1/jobs/$id/artifacts/filler.bin
 tag=$(curl -sSI "$artifact" | tr -d '\r' | sed -n 's/^ETag: //p')
 expect "the ETag" "$tag" "\"$(curl -sS "$artifact" | sha256sum | cut -d' ' -f1)\""
 expect "unchanged bytes" "$(status -H "If-None-Match: $tag" "$artifact")" 304
-expect "a range" "$(curl -sS -r 10-19 "$artifact" | wc -c)" 10
+curl -sS "$artifact" > "$work/whole"
+expect "a range" "$(curl -sS -r 10-19 -o "$work/part" -D "$work/head" -w '%{http_code}' "$artifact")" 206
+cmp "$work/part" <(tail -c +11 "$work/whole" | head -c 10) || fail "other bytes than asked for"
+grep -qi "^Content-Range: bytes 10-19/$(stat -c %s "$work/whole")" "$work/head" || fail "no Content-Range: $(cat "$work/head")"
+expect "a range of another file" "$(status -r 10-19 -H 'If-Range: "no"' "$artifact")" 200
+head -c 20 "$work/whole" > "$work/resumed"
+curl -sS -C - -o "$work/resumed" "$artifact"
+cmp "$work/whole" "$work/resumed" || fail "a download that was broken off does not go on"
+expect "a range past the end" "$(curl -sS --max-time 20 -r 999999999- "$artifact" | field '.status, .code' | xargs)" "416 no_such_range"
 jobtag=$(curl -sSI "$url/v1/jobs/$id" | tr -d '\r' | sed -n 's/^ETag: //p')
 expect "an unchanged job" "$(status -H "If-None-Match: $jobtag" "$url/v1/jobs/$id")" 304
 expect "the request id" "$(curl -sSI -H 'X-Request-Id: shop-1' "$url/healthz" | tr -d '\r' | sed -n 's/^X-Request-Id: //p')" shop-1

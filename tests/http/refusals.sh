@@ -33,6 +33,9 @@ refused "broken JSON" 400 file_malformed "" "${jobs[@]}" -d '{"garment":'
 refused "a number beyond all" 400 file_malformed "" "${jobs[@]}" -d '{"garment":1e999}'
 refused "deep JSON" 400 file_malformed "" "${jobs[@]}" -d "$(printf '[%.0s' $(seq 100))"
 refused "JSON of another type" 422 bad_usage "" "${jobs[@]}" -d '[]'
+refused "no JSON at all" 400 file_malformed "" -X POST "${json[@]}" "$(on /v1/jobs)"
+refused "a kind of JSON" 415 format_unknown "" -X POST -H 'Content-Type: application/jsonp' -d '{}' "$(on /v1/jobs)"
+refused "JSON in capitals that lacks all" 422 bad_usage "" -X POST -H 'Content-Type: APPLICATION/JSON; charset=utf-8' -d '{}' "$(on /v1/jobs)"
 refused "not JSON" 415 format_unknown "" -X POST -H 'Content-Type: text/plain' -d 'x' "$(on /v1/jobs)"
 refused "a missing garment" 422 bad_usage "" "${jobs[@]}" -d "{\"reference_body\":\"$body\"}"
 refused "an unknown member" 422 bad_usage "" "${jobs[@]}" -d "$(job_text write '{}' | sed 's/{/{"extra":1,/')"
@@ -59,6 +62,10 @@ printf 'ply\nformat ascii 1.0\nelement vertex 1000000000\nproperty float x\nprop
 head -c 3000000 /dev/urandom > "$work/large.obj"
 bodies=$(on /v1/bodies)
 refused "a body without triangles" 422 file_malformed "" -F file=@"$work/point.obj" "$bodies"
+cp "$source_root/schemas/examples/tube_skirt.json" "$work/skirt.json"
+refused "a garment as a body" 422 file_malformed "" -F file=@"$work/skirt.json" "$bodies"
+echo '{"measurements_cm":{"height":170}}' > "$work/tape.json"
+expect "tape measures as a file" "$(status -F file=@"$work/tape.json" "$bodies")" 201
 refused "a header of 10^9 vertices" 413 limit_exceeded "" -F file=@"$work/huge.ply" "$bodies"
 refused "a large upload" 413 limit_exceeded "" -F file=@"$work/large.obj" "$bodies"
 refused "an upload without a file" 422 bad_usage file -F name=x "$bodies"

@@ -27,6 +27,7 @@ TEST(HeadGuard, RefusesWhatTheLibraryDoesNotProtectFrom) {
       {head("transfer-ENCODING: identity\r\n"), 411, "length_required"},
       {head("Content-Encoding: gzip\r\n"), 415, "content_encoding"},
       {head("Range: bytes=0-1,2-3\r\n"), 416, "many_ranges"},
+      {head("Range: bytes=9-3\r\n"), 416, "bad_range"},
       {head(many), 431, "too_many_headers"},
       {head("A: " + std::string(33000, 'x') + "\r\n"), 431, "headers_too_large"},
       {std::string(33000, 'x'), 431, "headers_too_large"},
