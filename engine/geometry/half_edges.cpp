@@ -17,16 +17,24 @@ struct EdgeKey {
   }
 };
 
+// Counted out by their lower vertices first: what is left to sort are a handful of edges at each.
 std::vector<EdgeKey> sorted_edges(const Triangles& triangles) {
+  if (triangles.rows() == 0) return {};
   const int count = static_cast<int>(triangles.rows()) * 3;
-  std::vector<EdgeKey> keys;
-  keys.reserve(static_cast<std::size_t>(count));
+  const auto lower = [&](int h) {
+    return static_cast<std::size_t>(std::min(half_edge_start(triangles, h), half_edge_end(triangles, h)));
+  };
+  std::vector<int> begin(static_cast<std::size_t>(triangles.maxCoeff()) + 2, 0);
+  for (int h = 0; h < count; ++h) ++begin[lower(h) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<EdgeKey> keys(static_cast<std::size_t>(count));
+  std::vector<int> next(begin.begin(), begin.end() - 1);
   for (int h = 0; h < count; ++h) {
     const auto a = static_cast<std::uint64_t>(half_edge_start(triangles, h));
     const auto b = static_cast<std::uint64_t>(half_edge_end(triangles, h));
-    keys.push_back({std::min(a, b) << 32 | std::max(a, b), h});
+    keys[static_cast<std::size_t>(next[lower(h)]++)] = {std::min(a, b) << 32 | std::max(a, b), h};
   }
-  std::sort(keys.begin(), keys.end());
+  for (std::size_t v = 0; v + 1 < begin.size(); ++v) std::sort(keys.begin() + begin[v], keys.begin() + begin[v + 1]);
   return keys;
 }
 

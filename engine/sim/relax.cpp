@@ -34,6 +34,9 @@ double calm_residual(const DrapeEnergy& energy, const Points3& gradient) {
 // Share of the reach of the last look for pairs of layers that moves may use up before the next one.
 constexpr double kUsedReach = 0.3;
 
+// Planes a node above which cloth lies in a heap; layers that fold on one another have one or two.
+constexpr int kHeaped = 4;
+
 class Relaxation {
  public:
   Relaxation(DrapeEnergy& energy, const RelaxOptions& options)
@@ -141,11 +144,14 @@ class Relaxation {
     if (self->refresh(minimiser.nodes())) minimiser.refresh(evaluate);
   }
 
-  // Planes that stop a node slow down all of the cloth: they are put where the layers are now before long.
+  // Planes that stop a node slow down all of the cloth: they are put where the layers are now before long. In a heap
+  // something always stops something, and looks cost more than all else.
   bool outdated(ClothContact& self, const Points3& nodes) const {
     const int since = result_.iterations - looked_at_;
-    if (self.stale() || (self.hindered() && since >= options_.look_soon)) return true;
-    return since >= options_.look_around && (self.piercings() > 0 || self.moved_beyond(kUsedReach * self.reach(), nodes));
+    const bool heaped = self.planes() > kHeaped * energy_.cloth().node_count;
+    if (!heaped && (self.stale() || (self.hindered() && since >= options_.look_soon))) return true;
+    return since >= options_.look_around &&
+           (self.piercings() > 0 || self.moved_beyond(kUsedReach * self.reach(), nodes));
   }
 
   void judge(const QuasiNewton& minimiser, bool whole_round) {
