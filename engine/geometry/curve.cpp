@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/geometry/flat_vectors.h"
+
 namespace toile {
 
 namespace {
@@ -17,10 +19,6 @@ constexpr std::array<double, 4> kGaussX = {0.1834346424956498, 0.525532409916329
                                            0.9602898564975363};
 constexpr std::array<double, 4> kGaussW = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                            0.1012285362903763};
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 bool is_bezier(CurveKind kind) {
   return kind == CurveKind::QuadraticBezier || kind == CurveKind::CubicBezier;

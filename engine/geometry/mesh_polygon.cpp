@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/flat_vectors.h"
 #include "engine/geometry/triangulate.h"
 
 namespace toile {
@@ -14,10 +15,6 @@ constexpr double kBoundaryDistance = 0.6;  // of the edge length: nearer lattice
 constexpr int kRounds = 2;
 constexpr int kSweepsPerRound = 5;
 constexpr double kMostCellsAcross = 2000.0;  // bounds the memory for long thin polygons
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   const Vec2 d = b - a;

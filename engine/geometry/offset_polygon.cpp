@@ -5,14 +5,11 @@
 #include <cmath>
 
 #include "engine/core/error.h"
+#include "engine/geometry/flat_vectors.h"
 #include "engine/geometry/positive_outline.h"
 
 namespace toile {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 // One segment of the outline with the line it moves to.
 struct Grown {

@@ -6,14 +6,11 @@
 #include <map>
 #include <numeric>
 
+#include "engine/geometry/flat_vectors.h"
 #include "engine/geometry/offset_polygon.h"
 
 namespace toile {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 // Parameters along each segment at which another segment crosses or touches it.
 using Cuts = std::vector<std::vector<double>>;

@@ -5,13 +5,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/geometry/flat_vectors.h"
+
 namespace toile {
 
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 struct Segment {
   Vec2 a, b;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/geometry/flat_vectors.h"
 #include "engine/geometry/polygon_boolean.h"
 
 namespace toile {
@@ -13,10 +14,6 @@ using Loop = std::vector<Vec2>;
 
 constexpr double kTwoCorners = 0.4;  // a chord that ends in another reflex corner mends both: worth this much more
 constexpr double kSamePoint = 1e-9;  // m
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 // Unit direction from corner `i` to the outline `reach` away, forwards or backwards.
 Vec2 direction(const Loop& loop, std::size_t i, double reach, bool forwards) {

@@ -8,6 +8,7 @@
 #include "engine/core/units.h"
 #include "engine/geometry/disjoint_sets.h"
 #include "engine/geometry/fit_curve.h"
+#include "engine/geometry/flat_vectors.h"
 #include "engine/io/garmentcode_json.h"
 #include "engine/io/obj_sidecar.h"
 
@@ -122,7 +123,7 @@ class Assembler {
         for (int& v : edge) v = number[static_cast<std::size_t>(v)];
     }
     sew(mesh, number);
-    mesh.target_edge_length = mean_edge_length(mesh);
+    mesh.target_edge_length = mean_edge_length(mesh.rest, mesh.triangles);
     return mesh;
   }
 
@@ -223,14 +224,6 @@ class Assembler {
       }
     }
     std::tie(mesh.node_of_vertex, mesh.node_count) = nodes.numbering();
-  }
-
-  static double mean_edge_length(const PatternMesh& mesh) {
-    double sum = 0.0;
-    for (int f = 0; f < mesh.triangle_count(); ++f)
-      for (int k = 0; k < 3; ++k)
-        sum += (mesh.rest.row(mesh.triangles(f, k)) - mesh.rest.row(mesh.triangles(f, (k + 1) % 3))).norm();
-    return sum / (3.0 * mesh.triangle_count());
   }
 
   const ObjTextured& obj_;

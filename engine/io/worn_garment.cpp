@@ -6,6 +6,7 @@
 #include "engine/core/error.h"
 #include "engine/core/units.h"
 #include "engine/geometry/curve.h"
+#include "engine/geometry/flat_vectors.h"
 #include "engine/geometry/half_edges.h"
 #include "engine/geometry/inner_point.h"
 #include "engine/geometry/triangle_gradient.h"
@@ -27,7 +28,7 @@ class Reader {
     take_triangles();
     for (std::size_t p = 0; p < pattern_.panels.size(); ++p) take_outline(p);
     sew();
-    measure_edges();
+    worn_.mesh.target_edge_length = mean_edge_length(worn_.mesh.rest, worn_.mesh.triangles);
     for (const Vec3& p : obj_.positions) worn_.drape.nodes.row(node_++) = p.transpose();
     worn_.wanted = obj_.wanted;
     return std::move(worn_);
@@ -169,15 +170,6 @@ class Reader {
           refuse("a seam of the pattern is open");
       }
     }
-  }
-
-  void measure_edges() {
-    PatternMesh& mesh = worn_.mesh;
-    double sum = 0.0;
-    for (int f = 0; f < mesh.triangle_count(); ++f)
-      for (int k = 0; k < 3; ++k)
-        sum += (mesh.rest.row(mesh.triangles(f, k)) - mesh.rest.row(mesh.triangles(f, (k + 1) % 3))).norm();
-    mesh.target_edge_length = sum / (3.0 * mesh.triangle_count());
   }
 
   const ObjTextured& obj_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "engine/stages/body_slices.h"
 
@@ -96,7 +97,10 @@ BodyGuides find_body_guides(const Body& body, const SurfaceTree& surface) {
   return guides;
 }
 
-TriangleMesh body_without_arms(const Body& body) {
+namespace {
+
+// The vertices of both arms, from the finger tips to a plane a little outside the shoulder.
+std::vector<bool> arm_vertices(const Body& body) {
   const Points3& x = body.surface.vertices;
   const Triangles& triangles = body.surface.triangles;
   std::vector<bool> cut(static_cast<std::size_t>(x.rows()), false);
@@ -121,45 +125,60 @@ TriangleMesh body_without_arms(const Body& body) {
       stack.insert(stack.end(), next.begin(), next.end());
     }
   }
-  // Kept triangles, and a fan from its middle over each ring where triangles were taken away.
-  TriangleMesh result;
-  std::vector<Eigen::Vector3i> kept;
+  return cut;
+}
+
+// The rings round what was taken away, each in the direction of the removed triangles.
+std::vector<std::vector<int>> rings_of(const std::set<std::pair<int, int>>& removed_edges) {
   std::map<int, int> next_on_ring;
-  const auto gone = [&](Eigen::Index f) {
-    return cut[static_cast<std::size_t>(triangles(f, 0))] || cut[static_cast<std::size_t>(triangles(f, 1))] ||
-           cut[static_cast<std::size_t>(triangles(f, 2))];
-  };
-  std::map<std::pair<int, int>, bool> removed_edges;
-  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-    if (!gone(f)) {
-      kept.emplace_back(triangles.row(f));
-      continue;
-    }
-    for (int k = 0; k < 3; ++k) removed_edges[{triangles(f, k), triangles(f, (k + 1) % 3)}] = true;
-  }
-  for (const auto& [edge, unused] : removed_edges)
-    if (!removed_edges.contains({edge.second, edge.first})) next_on_ring[edge.first] = edge.second;
-  std::vector<Vec3> middles;
+  for (const auto& [from, to] : removed_edges)
+    if (!removed_edges.contains({to, from})) next_on_ring[from] = to;
+  std::vector<std::vector<int>> rings;
   while (!next_on_ring.empty()) {
-    std::vector<int> ring;
+    std::vector<int>& ring = rings.emplace_back();
     for (auto it = next_on_ring.begin(); it != next_on_ring.end(); it = next_on_ring.find(ring.back())) {
       ring.push_back(it->second);
       next_on_ring.erase(it);
     }
-    Vec3 middle = Vec3::Zero();
-    for (int v : ring) middle += x.row(v).transpose() / static_cast<double>(ring.size());
-    const int centre = static_cast<int>(x.rows()) + static_cast<int>(middles.size());
-    middles.push_back(middle);
-    for (std::size_t i = 0; i < ring.size(); ++i) kept.emplace_back(ring[i], ring[(i + 1) % ring.size()], centre);
   }
-  result.vertices.resize(x.rows() + static_cast<Eigen::Index>(middles.size()), 3);
-  result.vertices.topRows(x.rows()) = x;
-  for (std::size_t i = 0; i < middles.size(); ++i)
-    result.vertices.row(x.rows() + static_cast<Eigen::Index>(i)) = middles[i].transpose();
+  return rings;
+}
+
+// Without the triangles that have a vertex in `cut`; a fan from its middle closes each ring left open.
+TriangleMesh capped_without(const TriangleMesh& surface, const std::vector<bool>& cut) {
+  std::vector<Eigen::Vector3i> kept;
+  std::set<std::pair<int, int>> removed_edges;
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+    const Eigen::Vector3i t = surface.triangles.row(f);
+    const bool gone = cut[static_cast<std::size_t>(t[0])] || cut[static_cast<std::size_t>(t[1])] ||
+                      cut[static_cast<std::size_t>(t[2])];
+    if (!gone) kept.emplace_back(t);
+    for (int k = 0; gone && k < 3; ++k) removed_edges.emplace(t[k], t[(k + 1) % 3]);
+  }
+  const std::vector<std::vector<int>> rings = rings_of(removed_edges);
+  const Eigen::Index first = surface.vertices.rows();
+  TriangleMesh result;
+  result.vertices.resize(first + static_cast<Eigen::Index>(rings.size()), 3);
+  result.vertices.topRows(first) = surface.vertices;
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    const std::vector<int>& ring = rings[r];
+    const Eigen::Index centre = first + static_cast<Eigen::Index>(r);
+    Vec3 middle = Vec3::Zero();
+    for (int v : ring) middle += surface.vertices.row(v).transpose() / static_cast<double>(ring.size());
+    result.vertices.row(centre) = middle.transpose();
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      kept.emplace_back(ring[i], ring[(i + 1) % ring.size()], static_cast<int>(centre));
+  }
   result.triangles.resize(static_cast<Eigen::Index>(kept.size()), 3);
   for (std::size_t f = 0; f < kept.size(); ++f)
     result.triangles.row(static_cast<Eigen::Index>(f)) = kept[f].transpose();
   return result;
+}
+
+}  // namespace
+
+TriangleMesh body_without_arms(const Body& body) {
+  return capped_without(body.surface, arm_vertices(body));
 }
 
 }  // namespace toile

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <set>
 
+#include "engine/io/text_format.h"
+
 namespace toile::http {
 
 namespace {
@@ -42,23 +44,6 @@ std::string csv_field(const std::string& text) {
   std::string quoted("\"");
   for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
   return quoted.append("\"");
-}
-
-std::string html_text(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '&')
-      safe += "&amp;";
-    else if (c == '"')
-      safe += "&quot;";
-    else
-      safe += c;
-  }
-  return safe;
 }
 
 double worst(const BatchRow& row) {
@@ -105,16 +90,16 @@ namespace {
 std::string html_row(const BatchRow& row, const std::set<std::string>& zones) {
   std::string text = "<tr><td>";
   if (row.link.empty())
-    text += html_text(row.body);
+    text += escape_xml(row.body);
   else
-    text += "<a href=\"" + html_text(row.link) + "\">" + html_text(row.body) + "</a>";
+    text += "<a href=\"" + escape_xml(row.link) + "\">" + escape_xml(row.body) + "</a>";
   text += "</td>";
   if (row.status == BatchRowStatus::Done) {
     for (const std::string& zone : zones) text += cell(row, zone);
   } else {
     text += row.status == BatchRowStatus::Failed ? "<td class=\"no\" colspan=\"" : "<td colspan=\"";
     text += std::to_string(std::max<std::size_t>(1, zones.size())) + "\">" +
-            html_text(row.error.empty() ? word(row.status) : row.error) + "</td>";
+            escape_xml(row.error.empty() ? word(row.status) : row.error) + "</td>";
   }
   return text + "</tr>\n";
 }
@@ -127,13 +112,13 @@ std::string batch_html(const std::string& garment, const std::vector<BatchRow>& 
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const BatchRow& a, const BatchRow& b) { return worst(a) > worst(b); });
   std::string page =
-      "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>" + html_text(garment) +
+      "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>" + escape_xml(garment) +
       "</title><style>body{font:14px sans-serif;margin:2em}td,th{padding:.2em .6em;text-align:right}"
       "td:first-child,th:first-child{text-align:left}.no{color:#a00}</style><h1>" +
-      html_text(garment) + " on " + std::to_string(rows.size()) +
+      escape_xml(garment) + " on " + std::to_string(rows.size()) +
       " bodies</h1><p>Stretch left by zone in percent: red is tension, blue is slack; the worst first.</p>"
       "<table><tr><th>body</th>";
-  for (const std::string& zone : zones) page += "<th>" + html_text(zone) + "</th>";
+  for (const std::string& zone : zones) page += "<th>" + escape_xml(zone) + "</th>";
   page += "</tr>\n";
   for (const BatchRow& row : sorted) page += html_row(row, zones);
   return page + "</table></html>\n";

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // toile-bench NAME [words] [--csv FILE] [--svg FILE] [--repeats N]: prints tables of run time against error.
+#include <algorithm>
 #include <cstdio>
-#include <cstring>
+#include <cstdlib>
+#include <exception>
 #include <map>
 
 #include "tests/bench/proof.h"
 
-int main(int argc, char** argv) {
-  using namespace toile::bench;
-  struct Entry {
-    const char* summary;
-    int (*run)(const Arguments&);
-  };
-  const std::map<std::string, Entry> benches = {
+namespace toile::bench {
+namespace {
+
+struct Entry {
+  const char* summary;
+  int (*run)(const Arguments&);
+};
+
+const std::map<std::string, Entry>& benches() {
+  static const std::map<std::string, Entry> all = {
       {"alter",
        {"alter shared garments for other bodies: [GARMENT:BODY...] [--drape] [--greedy] [--triangles N] [--pictures "
         "FOLDER]",
@@ -63,6 +68,10 @@ int main(int argc, char** argv) {
       {"threads", {"the same job several times at once: [GARMENT] [--bodies NAME] [--triangles N]", bench_threads}},
       {"view", {"look at a body and a drape: BODY.obj [DRAPE.obj] OUT.png [--stretch 0.1]", bench_view}},
   };
+  return all;
+}
+
+Arguments arguments_of(int argc, char** argv) {
   Arguments arguments;
   for (int i = 2; i < argc; ++i) {
     const std::string word = argv[i];
@@ -75,11 +84,26 @@ int main(int argc, char** argv) {
     else
       arguments.words.push_back(word);
   }
-  const auto found = argc > 1 ? benches.find(argv[1]) : benches.end();
-  if (found == benches.end()) {
-    std::fprintf(stderr, "usage: toile-bench NAME [words] [--csv FILE] [--svg FILE] [--repeats N]\n");
-    for (const auto& [name, entry] : benches) std::fprintf(stderr, "  %-12s %s\n", name.c_str(), entry.summary);
-    return 2;
+  return arguments;
+}
+
+int tell_usage() {
+  std::fprintf(stderr, "usage: toile-bench NAME [words] [--csv FILE] [--svg FILE] [--repeats N]\n");
+  for (const auto& [name, entry] : benches()) std::fprintf(stderr, "  %-12s %s\n", name.c_str(), entry.summary);
+  return 2;
+}
+
+}  // namespace
+}  // namespace toile::bench
+
+int main(int argc, char** argv) {
+  using namespace toile::bench;
+  const auto found = argc > 1 ? benches().find(argv[1]) : benches().end();
+  if (found == benches().end()) return tell_usage();
+  try {
+    return found->second.run(arguments_of(argc, argv));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "toile-bench %s: %s\n", argv[1], error.what());
+    return 1;
   }
-  return found->second.run(arguments);
 }

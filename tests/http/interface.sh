@@ -45,6 +45,9 @@ jobtag=$(curl -sSI "$url/v1/jobs/$id" | tr -d '\r' | sed -n 's/^ETag: //p')
 expect "an unchanged job" "$(status -H "If-None-Match: $jobtag" "$url/v1/jobs/$id")" 304
 expect "the request id" "$(curl -sSI -H 'X-Request-Id: shop-1' "$url/healthz" | tr -d '\r' | sed -n 's/^X-Request-Id: //p')" shop-1
 
+for _ in $(seq 100); do grep -q '"request":"shop-1"' "$work/log" && break; sleep 0.1; done
+grep -q '"request":"shop-1".*"route":"/healthz"' "$work/log" || fail "the request's id is not in the log"
+
 # Events end with the job; who comes back with the last id misses nothing.
 slow=$(submit sleep "{\"until\":\"$work/go\"}" | field .id)
 curl -sSN --max-time 280 "$url/v1/jobs/$slow/events" > "$work/events" &

@@ -219,6 +219,10 @@ TEST(GarmentCodeJson, RefusesDeepAndHugeDocuments) {
   std::string many = "{\"pattern\":{\"panels\":{\"p0\":{}";
   for (int i = 1; i <= 200; ++i) many += ",\"p" + std::to_string(i) + "\":{}";
   EXPECT_EQ(code_of(many + "}}}"), ErrorCode::LimitExceeded);
+  std::string edges = R"({"endpoints":[0,1]})";
+  for (int i = 0; i < 2000; ++i) edges += R"(,{"endpoints":[0,1]})";
+  EXPECT_EQ(code_of(R"({"pattern":{"panels":{"p":{"vertices":[[0,0],[1,0]],"edges":[)" + edges + "]}}}}"),
+            ErrorCode::LimitExceeded);
 }
 
 }  // namespace

@@ -41,7 +41,9 @@ JobReport write_job(const JobContext& context) {
   std::string text = "made from";
   for (const auto& [role, input] : context.inputs) text += " " + role + "=" + sha256_hex(input.bytes);
   context.artifact("result.json", "application/json", bytes_of(json{{"text", text}}.dump()));
-  context.artifact("filler.bin", "application/octet-stream", Bytes(options.value("bytes", 1000), std::uint8_t{7}));
+  Bytes filler(options.value("bytes", 1000));
+  for (std::size_t i = 0; i < filler.size(); ++i) filler[i] = static_cast<std::uint8_t>(i % 251);
+  context.artifact("filler.bin", "application/octet-stream", filler);
   return {json{{"fit", {{"waist", 0.25 * static_cast<double>(text.size() % 7)}, {"hip", 0.1}}}}.dump(),
           R"({"wall_s":0})"};
 }
