@@ -19,6 +19,9 @@ constexpr double kSlope = 41.5 * kPi / 180;  // of the plane a cantilever's tip 
 constexpr double kClamp = 1e5;               // N/m, of a clamped node
 constexpr double kStripWidth = 0.025;        // m, of a cantilever
 constexpr int kClampedCells = 4;
+// Of the triangles round a drape meter's disc against those along its radius: folds bend the cloth across the radius.
+constexpr double kNarrow = 1.6;
+constexpr double kInner = 0.09, kOuter = 0.15;  // m, radii of a drape meter's disc and specimen
 
 void settle(Specimen& s, DrapeEnergy& energy, double residual, int iterations) {
   RelaxOptions first;
@@ -71,7 +74,7 @@ std::vector<Ring> ring_vertices(double inner, double spacing, int rings, Pattern
   std::vector<Vec2> points;
   for (int k = 0; k < rings; ++k) {
     Ring ring{inner + k * spacing, static_cast<int>(points.size()), 0};
-    ring.count = static_cast<int>(std::lround(2 * kPi * ring.radius / (spacing * 2 / std::sqrt(3.0))));
+    ring.count = static_cast<int>(std::lround(kNarrow * 2 * kPi * ring.radius / (spacing * 2 / std::sqrt(3.0))));
     for (int i = 0; i < ring.count; ++i) {
       const double angle = 2 * kPi * (i + k * std::numbers::phi) / ring.count;
       points.emplace_back(ring.radius * std::cos(angle), ring.radius * std::sin(angle));
@@ -193,6 +196,35 @@ double elastica_slope(double k) {
   return std::atan2(y, x);
 }
 
+// The flat specimen of a drape meter with its rings of nodes, on the disc but for a small unevenness.
+DrapeDrop drop_specimen(const Fabric& fabric, int rings, int number) {
+  DrapeDrop drop;
+  Specimen& s = drop.specimen;
+  const double spacing = (kOuter - kInner) / (rings + 0.5);  // the clamp ends midway between the two clamped rings
+  const std::vector<Ring> found = ring_vertices(kInner - 0.5 * spacing, spacing, rings + 2, s.mesh);
+  std::vector<Eigen::Vector3i> triangles;
+  for (std::size_t k = 0; k + 1 < found.size(); ++k) zip_rings(s.mesh, found[k], found[k + 1], triangles);
+  finish_mesh(s, triangles);
+  // Which specimen lies on the disc, with which face up, and how its grain lies against the mesh.
+  const int piece = number / 2;
+  const double face = number % 2 == 0 ? 1 : -1, turn = number * std::numbers::phi;
+  s.pattern.fabric = fabric;
+  s.pattern.panels[0].grainline = {Vec2::Zero(), Vec2(-std::sin(turn), std::cos(turn))};
+  const Cloth cloth = make_cloth(s.pattern, s.mesh);
+  DrapeEnergy energy(cloth, nullptr, kGravity);
+  s.drape.nodes.resize(s.mesh.node_count, 3);
+  for (int v = 0; v < s.mesh.vertex_count(); ++v) {
+    const Vec2 p = s.mesh.rest.row(v);
+    const double free = std::max(0.0, p.norm() - kInner - 0.6 * spacing), angle = std::atan2(p.y(), p.x()) - turn;
+    double wave = 0;  // a small unevenness, the same for every mesh
+    for (int k = 2; k <= 9; ++k) wave += std::cos(k * angle + 1.7 * k * k * (1 + piece));
+    s.drape.nodes.row(v) << p.x(), 0.02 * face * free * wave, p.y();
+    if (free == 0) energy.pins.push_back({v, s.drape.nodes.row(v), kClamp});
+  }
+  settle(s, energy, 0.02, 6000);
+  return drop;
+}
+
 }  // namespace
 
 double elastica_overhang_factor() {
@@ -216,39 +248,32 @@ Cantilever cantilever(const Fabric& fabric, int cells) {
   return result;
 }
 
-DrapeMeter drape_meter(const Fabric& fabric, int rings) {
-  constexpr double kInner = 0.09, kOuter = 0.15;  // m
-  DrapeMeter result;
-  Specimen& s = result.specimen;
-  s.pattern.fabric = fabric;
-  const double spacing = (kOuter - kInner) / (rings + 0.5);  // the clamp ends midway between the two clamped rings
-  const std::vector<Ring> found = ring_vertices(kInner - 0.5 * spacing, spacing, rings + 2, s.mesh);
-  std::vector<Eigen::Vector3i> triangles;
-  for (std::size_t k = 0; k + 1 < found.size(); ++k) zip_rings(s.mesh, found[k], found[k + 1], triangles);
-  finish_mesh(s, triangles);
-  const Cloth cloth = make_cloth(s.pattern, s.mesh);
-  DrapeEnergy energy(cloth, nullptr, kGravity);
-  s.drape.nodes.resize(s.mesh.node_count, 3);
-  for (int v = 0; v < s.mesh.vertex_count(); ++v) {
-    const Vec2 p = s.mesh.rest.row(v);
-    const double free = std::max(0.0, p.norm() - kInner - 0.6 * spacing), angle = std::atan2(p.y(), p.x());
-    double wave = 0;  // a small unevenness, the same for every mesh
-    for (int k = 2; k <= 9; ++k) wave += std::cos(k * angle + 1.7 * k * k);
-    s.drape.nodes.row(v) << p.x(), 0.02 * free * wave, p.y();
-    if (free == 0) energy.pins.push_back({v, s.drape.nodes.row(v), kClamp});
-  }
-  settle(s, energy, 0.02, 6000);
+DrapeDrop drape_drop(const Fabric& fabric, int rings, int number) {
+  DrapeDrop drop = drop_specimen(fabric, rings, number);
   constexpr int kRays = 3600;
-  const std::vector<double> radius = shadow_radius(s, kInner, kRays);
+  const std::vector<double> radius = shadow_radius(drop.specimen, kInner, kRays);
   double area = 0;
   for (int i = 0; i < kRays; ++i) {
     const double r = radius[static_cast<std::size_t>(i)], angle = 2 * kPi * i / kRays;
     area += kPi / kRays * r * r;
-    result.shadow.emplace_back(r * std::cos(angle), r * std::sin(angle));
+    drop.shadow.emplace_back(r * std::cos(angle), r * std::sin(angle));
   }
-  result.coefficient = (area / kPi - kInner * kInner) / (kOuter * kOuter - kInner * kInner);
-  result.folds = count_folds(radius);
-  return result;
+  drop.coefficient = (area / kPi - kInner * kInner) / (kOuter * kOuter - kInner * kInner);
+  drop.folds = count_folds(radius);
+  return drop;
+}
+
+DrapeMeter drape_meter(const Fabric& fabric, int rings, int drops) {
+  DrapeMeter meter;
+  double squares = 0;
+  for (int k = 0; k < drops; ++k) {
+    meter.drops.push_back(drape_drop(fabric, rings, k));
+    const double before = meter.coefficient, coefficient = meter.drops.back().coefficient;
+    meter.coefficient += (coefficient - before) / (k + 1);
+    squares += (coefficient - before) * (coefficient - meter.coefficient);
+  }
+  meter.spread = drops > 1 ? std::sqrt(squares / (drops - 1)) : 0.0;
+  return meter;
 }
 
 TensileStrip tensile_strip(const Fabric& fabric, double angle, double load) {

@@ -27,13 +27,25 @@ struct Cantilever {
 Cantilever cantilever(const Fabric& fabric, int cells);
 
 // ISO 9073-9: a disc of 30 cm diameter hangs over one of 18 cm. `rings` of nodes lie on the free part.
-struct DrapeMeter {
+struct DrapeDrop {
   double coefficient = 0.0;  // (shadow - disc) / (specimen - disc), dimensionless
   int folds = 0;             // maxima of the shadow's radius
   std::vector<Vec2> shadow;  // outline, m
   Specimen specimen;
 };
-DrapeMeter drape_meter(const Fabric& fabric, int rings);
+// The `number`th time a specimen is laid on the disc: every specimen twice, with either face up. Each has an unevenness
+// of its own, the same on every mesh, and its grain is turned against the mesh.
+DrapeDrop drape_drop(const Fabric& fabric, int rings, int number);
+
+// One cloth falls into different numbers of folds from one time to the next, and its coefficient with them: the mean
+// of several specimens with either face up is what the standard reports, and what repeated measurements need
+// [Jeong1998].
+struct DrapeMeter {
+  double coefficient = 0.0;  // mean of the drops
+  double spread = 0.0;       // standard deviation of one drop
+  std::vector<DrapeDrop> drops;
+};
+DrapeMeter drape_meter(const Fabric& fabric, int rings, int drops = 6);
 
 // A strip of 20 x 5 cm between clamps, pulled along a direction `angle` from the warp (0 warp, pi/2 weft, pi/4 bias) by
 // `load`, N per metre of width: its extension, dimensionless.
