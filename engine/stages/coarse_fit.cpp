@@ -166,6 +166,31 @@ void find_trunk_boxes(const BodySlices& slices, const Skeleton& skeleton, BodyPr
   smooth_levels(found.trunk_low), smooth_levels(found.trunk_high);
 }
 
+// Slides the skin of legs and pelvis along them to the levels the target has it at; bones alone stretch each segment
+// evenly.
+class LegSlide {
+ public:
+  LegSlide(const BodyProportions& reference, const BodyProportions& target)
+      : skeleton_(reference.skeleton), levels_(reference.legs, target.legs) {}
+
+  Vec3 operator()(int bone, const Vec3& v) const {
+    if ((bone >= Head && bone < bone_of(Thigh, Left)) || bone >= bone_of(Foot, Left)) return v;
+    const double level = v.y() / skeleton_.crotch_y;
+    const Vec3 up = axis(bone);
+    return v + (levels_(level) - level) * skeleton_.crotch_y / up.y() * up;
+  }
+
+ private:
+  Vec3 axis(int bone) const {
+    if (bone < Head) return Vec3::UnitY();
+    const Skeleton::Leg& leg = skeleton_.legs[static_cast<std::size_t>(bone % 2)];
+    return bone < bone_of(Shin, Left) ? leg.hip - leg.knee : leg.knee - leg.ankle;
+  }
+
+  const Skeleton& skeleton_;
+  LegLevels levels_;
+};
+
 // Between both skinnings: moves are affine, so are their means.
 Moves mean_moves(const Moves& a, const Moves& b) {
   Moves mean;
@@ -193,6 +218,7 @@ BodyProportions find_proportions(const TriangleMesh& body, const Skeleton& skele
   find_trunk_boxes(slices, skeleton, found);
   for (const Side side : {Left, Right})
     found.leg_girth += 0.5 * hull_perimeter(slices.leg(0.8 * skeleton.crotch_y, side));
+  found.legs = find_leg_profile(body, skeleton);
   return found;
 }
 
@@ -201,6 +227,7 @@ Points3 coarse_fit(const Points3& reference_vertices, const Eigen::MatrixXd& wei
   const Moves full = full_moves(reference, target);
   const Moves moves = mean_moves(full, soft_moves(reference, target));
   const TrunkProfile profile(reference, target, full);
+  const LegSlide slide(reference, target);
   Points3 fitted(reference_vertices.rows(), 3);
   for (Eigen::Index v = 0; v < fitted.rows(); ++v) {
     const Vec3 p = reference_vertices.row(v);
@@ -208,8 +235,9 @@ Points3 coarse_fit(const Points3& reference_vertices, const Eigen::MatrixXd& wei
     for (int b = 0; b < kBoneCount; ++b)
       if (const double w = weights(v, b); w > 0) {
         const auto bone = static_cast<std::size_t>(b);
-        x += w * moves[bone](p);
-        if (b < Head) x += w * kFullTrunk * kByProfile * (profile(p) - full[bone](p));
+        const Vec3 q = slide(b, p);
+        x += w * moves[bone](q);
+        if (b < Head) x += w * kFullTrunk * kByProfile * (profile(q) - full[bone](q));
       }
     fitted.row(v) = x;
   }

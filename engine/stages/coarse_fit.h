@@ -8,6 +8,7 @@
 #pragma once
 
 #include "engine/core/body.h"
+#include "engine/stages/leg_profile.h"
 
 namespace toile {
 
@@ -17,6 +18,7 @@ struct BodyProportions {
   std::array<double, 3> trunk_width{}, trunk_depth{};  // m, of the trunk's slice at pelvis, waist, chest
   std::array<Vec2, 9> trunk_low, trunk_high;  // m, its box (x, z) at even levels from pelvis to chest, smoothed
   double leg_girth = 0.0;                     // m, mean of both legs at 0.8 of the crotch height
+  LegProfile legs;
 };
 BodyProportions find_proportions(const TriangleMesh& body, const Skeleton& skeleton);
 

@@ -12,5 +12,7 @@ int bench_register_pairs(const Arguments& arguments);
 int bench_register_variants(const Arguments& arguments);
 // "measures [TARGET | BODY:SEED...]": what is measured on scans, beside the bodies they were made of.
 int bench_register_measures(const Arguments& arguments);
+// "skin [SCAN...]": garments on scans' own skin and on the registered reference, beside the bodies they were made of.
+int bench_register_skin(const Arguments& arguments);
 
 }  // namespace toile::bench
