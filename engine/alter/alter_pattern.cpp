@@ -8,6 +8,7 @@
 #include "engine/alter/coarse_pattern.h"
 #include "engine/alter/cut_anew.h"
 #include "engine/alter/read_operations.h"
+#include "engine/alter/search_tears.h"
 #include "engine/alter/sew_altered.h"
 #include "engine/core/side_by_side.h"
 #include "engine/core/text.h"
@@ -19,7 +20,10 @@ namespace {
 constexpr int kPlanTriangles = 600;   // of the garment: tears are chosen on so many
 constexpr double kPastMouth = 0.001;  // m
 constexpr double kStrained = 2.0;     // times the allowed stretch: share of a panel's area that strain in it explains
-constexpr double kLeastOff = 5e-5;    // m^2: less is crumbs
+constexpr double kMostImbalance = 0.01;  // of the garment's area, that strain may add up to
+constexpr double kStricter = 0.7;        // of the limit before: what a plan with a stricter one is made with
+constexpr double kStrictest = 0.45;      // of the allowed stretch, at least
+constexpr double kLeastOff = 5e-5;       // m^2: less is crumbs
 
 TearPatternOptions pass_options(const Pattern& pattern, const AlterPatternOptions& options, bool removing) {
   TearPatternOptions pass;
@@ -212,24 +216,35 @@ void tell_cut_back(const AlterPatternOptions& options, AlterPatternResult& resul
         options.least_strip * kMmPerMetre));
 }
 
-}  // namespace
+// What was planned with a stricter limit is judged by the one that is asked for.
+void judge_by(double stretch_limit, TornPattern& torn) {
+  for (PanelTearing& panel : torn.panels)
+    if (!panel.overlaps && share_of_strain(panel.after, stretch_limit) < kNearEnough) {
+      panel.done = true;
+      panel.reason.clear();
+    }
+}
 
-AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                                 const AlterPatternOptions& options, Progress* progress, bool at_once) {
-  assert(target_rest.rows() == mesh.vertex_count() && pattern.panels.size() == mesh.panels.size());
-  const CoarsePattern coarse = coarsen(pattern, mesh, target_rest, kPlanTriangles);
-  const auto [inserting, removing] = side_by_side(
+// Alters with tears that are planned with `share` of the allowed stretch.
+AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
+                           const CoarsePattern& coarse, const AlterPatternOptions& options, double share,
+                           Progress* progress, bool at_once) {
+  AlterPatternOptions planned = options;
+  planned.stretch_limit *= share;
+  auto [inserting, removing] = side_by_side(
       at_once,
       [&] {
         return tear_pattern(pattern, {mesh, mesh.rest, target_rest},
-                            {coarse.mesh, coarse.mesh.rest, coarse.target_rest}, pass_options(pattern, options, false),
+                            {coarse.mesh, coarse.mesh.rest, coarse.target_rest}, pass_options(pattern, planned, false),
                             progress);
       },
       [&] {
         return tear_pattern(pattern, {mesh, target_rest, mesh.rest},
-                            {coarse.mesh, coarse.target_rest, coarse.mesh.rest}, pass_options(pattern, options, true),
+                            {coarse.mesh, coarse.target_rest, coarse.mesh.rest}, pass_options(pattern, planned, true),
                             progress);
       });
+  judge_by(options.stretch_limit, inserting);
+  judge_by(options.stretch_limit, removing);
   AlterPatternResult result;
   result.insertion_rounds = inserting.rounds;
   result.removal_rounds = removing.rounds;
@@ -264,6 +279,30 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
   tell_cut_anew(anew, result);
   tell_ticket(result.sewn, result.ticket);
   tell_cut_back(options, result);
+  return result;
+}
+
+// Flags, and one more where strain adds up to too much area.
+std::size_t faults_of(const AlterPatternResult& result) {
+  return result.flags.size() + result.sewn.flags.size() + (result.area_imbalance > kMostImbalance);
+}
+
+}  // namespace
+
+AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
+                                 const AlterPatternOptions& options, Progress* progress, bool at_once) {
+  assert(target_rest.rows() == mesh.vertex_count() && pattern.panels.size() == mesh.panels.size());
+  const CoarsePattern coarse = coarsen(pattern, mesh, target_rest, kPlanTriangles);
+  const auto with = [&](double share) {
+    return altered(pattern, mesh, target_rest, coarse, options, share, progress, at_once);
+  };
+  AlterPatternResult result = with(1.0);
+  // Where something is wrong, less strain may mend it with as many operations.
+  for (double share = kStricter; share >= kStrictest && faults_of(result) > 0; share *= kStricter) {
+    AlterPatternResult strict = with(share);
+    if (faults_of(strict) < faults_of(result) && strict.ticket.operations.size() <= result.ticket.operations.size())
+      result = std::move(strict);
+  }
   return result;
 }
 

@@ -16,7 +16,7 @@ namespace {
 struct Nearness {
   double edge, corner, length;  // m
 };
-constexpr Nearness kAsCut = {6e-4, 1e-3, 1.0}, kAsDrawn = {6e-4, 1e-3, 2e-4}, kTrued = {2e-4, 2e-4, 1e-4};
+constexpr Nearness kAsCut = {6e-4, 1e-3, 1.0}, kAsDrawn = {6e-4, 2e-4, 2e-4}, kTrued = {2e-4, 2e-4, 1e-4};
 constexpr double kStraight = 2e-4;    // m
 constexpr double kSmooth = 8e-4;      // m: of a Bézier through the chain's points
 constexpr double kSameLength = 1e-4;  // m: of such a Bézier and the chain

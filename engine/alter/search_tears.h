@@ -45,6 +45,10 @@ double share_of_lean(const SheetStress& stress, double limit);
 // The larger of strain and shift.
 double share_of_limit(const SheetStress& stress, double limit);
 
+// Times the limit; a panel that stopped so near is done: strain at the tip of a tear is singular, so the last
+// percentiles stay a little over the limit where nothing is left to gain.
+inline constexpr double kNearEnough = 1.25;
+
 // What farther out than this is no alteration, m.
 inline constexpr double kMostOutside = 0.01;
 

@@ -17,7 +17,7 @@ constexpr double kProximal = 1e-6;   // of the diagonal: holds cloth that nothin
 // far as the limit allows, a hand's breadth at the hem, where letting a side go upright costs hardly any stretch. Short
 // cloth leans little, and what is sewn on fewer than two sides leans without taking other panels along: there free
 // shear spares cuts.
-constexpr double kShear = 0.2;
+constexpr double kShear = 1.0;
 constexpr double kShort = 0.5, kLong = 0.6;  // m
 
 double shear_stiffness(const Sheet& sheet) {

@@ -4,7 +4,7 @@
 // Unknown: where every vertex of the sheet is.  Minimise
 //   sum_f A_f |G_f - P_f|^2  +  1e3 sum_attached (n.(x - c))^2  +  h sum_v A_v |x - g|^2  +  1e-6 diag |x - x_before|^2
 // with P_f the nearest gradient whose fibres have length l* = min(1, that of the plain map) at 90 +- 5 degrees, where
-// shear costs a fifth of what stretch does, and (c, n) foot and normal on the wanted side, on which attached vertices
+// shear costs long cloth what stretch does, and (c, n) foot and normal on the wanted side, on which attached vertices
 // slide, and g the place in the plain map, which keeps cloth that hangs on no side, or could slide along one, from
 // drifting off.  l* < 1: cloth that must shrink here is the business of the pass with the roles swapped, not stress.
 //   local step: P_f      global step: a prefactored solve; (c, n) renewed every few sweeps

@@ -8,10 +8,6 @@
 namespace toile {
 namespace {
 
-// Strain at the tip of a tear is singular, so the last percentiles stay a little over the limit where nothing is left
-// to gain: a panel that stopped so near is done.
-constexpr double kNearEnough = 1.25;
-
 class Tearing {
  public:
   Tearing(const Pattern& pattern, const PatternMesh& mesh, std::vector<Sheet> sheets, const TearPatternOptions& options,

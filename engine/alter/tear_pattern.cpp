@@ -7,15 +7,12 @@
 #include "engine/alter/choose_sets.h"
 #include "engine/alter/couple_plies.h"
 #include "engine/alter/lay_sheet.h"
+#include "engine/alter/search_tears.h"
 #include "engine/alter/tear_in_rounds.h"
 #include "engine/core/work_off.h"
 
 namespace toile {
 namespace {
-
-// Strain at the tip of a tear is singular, so the last percentiles stay a little over the limit where nothing is left
-// to gain: a panel that stopped so near is done.
-constexpr double kNearEnough = 1.25;
 
 std::vector<Sheet> make_sheets(const Pattern& pattern, const Stretching& maps,
                                const std::vector<Sheet>* like = nullptr) {

@@ -17,7 +17,8 @@ constexpr double kHold = 25.0;         // h, 1/m^2: what is moved dies out over 
 constexpr double kHoldNew = 2.0;       // ... in new cloth, which is not cut yet and may bend, over 70 cm
 constexpr double kCoarse = 0.025;      // m: edge length of the mesh, at least
 constexpr double kSettled = 1e-6;      // m
-constexpr double kFarthest = 0.05;     // m a point may be moved: more is no truing
+constexpr double kFarthest = 0.05;     // m a point may be moved: more is no truing ...
+constexpr double kFarthestNew = 0.3;   // ... but a long narrow strip of new cloth that bends a little
 constexpr int kSteps = 10;
 
 Points2 rows_of(const std::vector<Vec2>& points) {
@@ -30,7 +31,7 @@ Points2 rows_of(const std::vector<Vec2>& points) {
 
 TruedPiece::TruedPiece(const PieceBorder& border, const PieceMap& map, const Vec2& scale, bool is_new,
                        double edge_length)
-    : hold_(is_new ? kHoldNew : kHold) {
+    : hold_(is_new ? kHoldNew : kHold), farthest_(is_new ? kFarthestNew : kFarthest) {
   std::vector<Vec2> outline;
   const double coarse = std::max(kCoarse, edge_length);
   const std::size_t count = border.vertices.size();
@@ -98,7 +99,7 @@ bool TruedPiece::fit() {
   for (int i = 0; i < kSteps && step() > kSettled; ++i) {
   }
   for (std::size_t v = 0; v < now_.size(); ++v)
-    if (!((now_[v] - before_[v]).norm() < kFarthest)) return false;
+    if (!((now_[v] - before_[v]).norm() < farthest_)) return false;
   return is_simple_polygon({now_.begin(), now_.begin() + border_count_});
 }
 

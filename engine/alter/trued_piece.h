@@ -35,7 +35,7 @@ class TruedPiece {
   void add_metric(Eigen::Index f);
   const Vec2& before(int v) const { return before_[static_cast<std::size_t>(v)]; }
 
-  double hold_;
+  double hold_, farthest_;
   Points2 target_;                          // of the mesh's points, in the wanted panel
   std::vector<Vec2> start_, before_, now_;  // flat: as handed in, scaled, trued
   Triangles triangles_;
