@@ -67,7 +67,11 @@ GivenLandmarks read_landmarks(std::span<const std::uint8_t> bytes, const std::st
     GivenLandmarks given;
     const auto normalised = root.find("landmarks_m");
     given.in_file_frame = !normalised;
-    given.points = read_points(normalised ? *normalised : root.at("landmarks"));
+    const auto in_file = root.find("landmarks");
+    if (!normalised && !in_file)
+      root.fail(
+          "no landmarks; give \"landmarks\" in the frame of the body's file, or \"landmarks_m\" as toile body prints");
+    given.points = read_points(normalised ? *normalised : *in_file);
     return given;
   });
 }

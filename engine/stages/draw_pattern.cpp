@@ -210,24 +210,6 @@ std::pair<Vec2, double> largest_change(const std::vector<Vec2>& original, const 
 
 }  // namespace
 
-std::vector<std::vector<Vec2>> folded_darts(const Pattern& pattern, int panel_number,
-                                            const DrawPatternOptions& options) {
-  const Panel& panel = pattern.panels[static_cast<std::size_t>(panel_number)];
-  const std::vector<bool> folded = folded_edges(pattern, panel_number, options.folded_dart_mm);
-  std::vector<std::vector<Vec2>> wedges;
-  for (const Seam& seam : pattern.seams) {
-    if (seam.a.panel.value != panel_number || !folded[static_cast<std::size_t>(seam.a.edge)]) continue;
-    const bool a_first = (seam.a.edge + 1) % panel.edge_count() == seam.b.edge;
-    std::vector<Vec2> wedge;
-    for (const int edge : {a_first ? seam.a.edge : seam.b.edge, a_first ? seam.b.edge : seam.a.edge})
-      for (const Vec2& p : flatten_curve(edge_curve(panel, edge), options.tolerance_mm * kMetrePerMm))
-        if (wedge.empty() || (p * kMmPerMetre - wedge.back()).norm() > 0) wedge.emplace_back(p * kMmPerMetre);
-    if (polygon_area(wedge) < 0) std::reverse(wedge.begin(), wedge.end());
-    wedges.push_back(std::move(wedge));
-  }
-  return wedges;
-}
-
 double seam_allowance_of(const Pattern& pattern, const PanelEdge& edge) {
   if (edge.on_fold) return 0.0;
   if (edge.hem) return *edge.hem;

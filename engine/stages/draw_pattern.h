@@ -22,10 +22,6 @@ Drawing draw_pattern(const Pattern& pattern, const DrawPatternOptions& options =
 // distance between the two written on each piece ("+12.0 mm": outside the original; "-": inside).
 Drawing draw_changes(const Pattern& original, const Pattern& changed);
 
-// The wedges of a panel's darts that are folded, not cut: closed outlines in mm, counter-clockwise.
-std::vector<std::vector<Vec2>> folded_darts(const Pattern& pattern, int panel_number,
-                                            const DrawPatternOptions& options = {});
-
 // The allowance of an edge, m: none on a fold, the depth of its hem, its own, or the pattern's.
 double seam_allowance_of(const Pattern& pattern, const PanelEdge& edge);
 

@@ -201,14 +201,6 @@ int EdgeSampling::segment_count(PanelId panel, int edge) const {
   return group.collapsed ? 0 : std::accumulate(group.steps.begin(), group.steps.end(), 0);
 }
 
-int EdgeSampling::total_segments() const {
-  int total = 0;
-  for (int p = 0; p < static_cast<int>(places_.size()); ++p)
-    for (int e = 0; e < static_cast<int>(places_[static_cast<std::size_t>(p)].size()); ++e)
-      total += segment_count(PanelId(p), e);
-  return total;
-}
-
 void EdgeSampling::refine(PanelId panel, int edge) {
   Group& group = group_of(panel.value, edge);
   if (group.collapsed)

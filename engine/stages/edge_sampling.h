@@ -25,7 +25,6 @@ class EdgeSampling {
 
   EdgeSamples samples(PanelId panel, int edge) const;
   int segment_count(PanelId panel, int edge) const;
-  int total_segments() const;
   // Twice as many vertices on this edge and on what is sewn to it; a collapsed edge is opened again.
   void refine(PanelId panel, int edge);
 

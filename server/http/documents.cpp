@@ -122,7 +122,15 @@ std::string list_document(ordered_json items, const std::string& next) {
   return text_of({{"items", std::move(items)}, {"next", next.empty() ? ordered_json() : ordered_json(next)}});
 }
 
-Page page_of(const Request& request) {
+Page page_of(const Request& request, std::initializer_list<std::string_view> filters) {
+  std::vector<std::string_view> known = {"limit", "cursor"};
+  known.insert(known.end(), filters);
+  for (const auto& [name, value] : request.query) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    std::string list;
+    for (const std::string_view one : known) list.append(list.empty() ? "" : ", ").append(one);
+    throw invalid(name, "unknown parameter `" + name + "`; this list knows " + list);
+  }
   Page page;
   page.limit = number_of(request, "limit", 50, 1, kMaxPage);
   page.before = number_of(request, "cursor", 0, 0, 2147483647);

@@ -25,8 +25,9 @@ struct Page {
   std::int64_t before = 0;
   int limit = 50;
 };
-// `limit` (1-200) and `cursor` of a list. Throws Problem 422.
-Page page_of(const Request& request);
+// `limit` (1-200) and `cursor` of a list. Throws Problem 422, also for a parameter that is none of these and no filter
+// of the list: a misspelt filter would list everything.
+Page page_of(const Request& request, std::initializer_list<std::string_view> filters = {});
 // The address of the next page, or empty when this one was not full.
 std::string next_link(const Request& request, std::size_t count, int limit, std::int64_t last_sequence);
 

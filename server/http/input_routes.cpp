@@ -33,7 +33,7 @@ Response show(Service& service, const Request& request, InputKind kind) {
 }
 
 Response list(Service& service, const Request& request, InputKind kind) {
-  const Page page = page_of(request);
+  const Page page = page_of(request, {"label"});
   const auto inputs =
       service.store.inputs.list(request.tenant, kind, {request.parameter("label"), page.before, page.limit});
   nlohmann::ordered_json items = nlohmann::ordered_json::array();

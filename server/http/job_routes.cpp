@@ -61,7 +61,7 @@ Response show(Service& service, const Request& request) {
 }
 
 Response list(Service& service, const Request& request) {
-  const Page page = page_of(request);
+  const Page page = page_of(request, {"label", "state"});
   JobFilter filter;
   if (const auto state = request.parameter("state")) filter.state = state_of_name(*state);
   filter.label = request.parameter("label");

@@ -20,7 +20,6 @@ class Router {
   void add(Route route);
   // The route, with `path_values` of the request filled. Throws Problem 404, or 405 with Allow.
   const Route& find(Request& request) const;
-  const std::vector<Route>& routes() const { return routes_; }
 
  private:
   std::vector<Route> routes_;

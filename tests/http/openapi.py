@@ -122,7 +122,10 @@ call("cancelJob", {"id": "job_0"}, want=404)
 batch = made(call("createBatch", body={"garment": garment, "reference_body": reference, "target_bodies": [target],
                                        "options": {"triangles": 500}}, want=202))
 call("createBatch", body={"garment": garment, "reference_body": reference}, want=422)
+call("createBatch", body=b"{", headers={"Content-Type": "application/json"}, want=400)
+call("createBatch", body=b"x", headers={"Content-Type": "image/png"}, want=415)
 call("listBatches", want=200)
+call("listBatches", query="?label=spring", want=422)
 call("getBatch", {"id": batch}, want=200)
 call("getBatch", {"id": "batch_0"}, want=404)
 for operation in ("getBatchTable", "getBatchPage"):

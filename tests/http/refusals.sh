@@ -49,6 +49,7 @@ refused "an unknown option" 422 option_invalid "" "${jobs[@]}" -d "$(job_text al
 refused "a webhook without a secret" 422 option_invalid /webhook "${jobs[@]}" \
   -d "$(job_text write '{}' | sed 's/{/{"webhook":"http:\/\/example.org\/x",/')"
 refused "a large document" 413 limit_exceeded "" "${jobs[@]}" --data-binary @"$work/large.json"
+refused "a misspelt filter" 422 bad_usage lable "$(on '/v1/bodies?lable=spring')"
 refused "a bad limit" 422 bad_usage limit "$(on '/v1/jobs?limit=many')"
 refused "a bad state" 422 option_invalid state "$(on '/v1/jobs?state=lost')"
 refused "a bad wait" 422 bad_usage wait "$(on "/v1/jobs/$(submit write '{}' -H 'Prefer: wait=60' | field .id)/events?wait=soon")"
