@@ -92,10 +92,10 @@ TEST(CommandLine, WhatStandardOutputDoesNotTakeIsAFailure) {
 
 TEST(CommandLine, StoppedByASignalItLeavesNoResult) {
   const test::TemporaryFolder folder;
-  const std::string line = kToile + " drape --garment " + kExamples +
-                           "leggings.json --body builtin:child-128 --triangles 60000 --out " + folder.path() +
-                           "/out 2> " + folder.path() + "/said & job=$!; until grep -q 'putting it on' " +
-                           folder.path() + "/said; do sleep 0.05; done; kill -TERM $job; wait $job";
+  const std::string line =
+      kToile + " drape --garment " + kExamples + "leggings.json --body builtin:child-128 --triangles 60000 --out " +
+      folder.path() + "/out 2> " + folder.path() + "/said & job=$!; while kill -0 $job && ! grep -q 'putting it on' " +
+      folder.path() + "/said; do sleep 0.05; done; kill -TERM $job; wait $job";
   EXPECT_EQ(test::run_process({"/bin/sh", "-c", line}).exit_code, 5);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path() + "/out"));
 }
