@@ -5,6 +5,7 @@
 
 #include "engine/archive_stages.h"
 #include "engine/stage_options.h"
+#include "engine/stages/registered_skin.h"
 
 namespace toile {
 
@@ -91,7 +92,9 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   const auto& [pattern, mesh, wearer, worn, fit] = reference.value;
   RegisterBodiesResult registered = found.value;
   if (imported.value.patch_triangles > 0) stand_on_soles(target, registered);
-  const auto transported = runner.run("transport_garment", 4, key_of(reference.key, found.key), [&] {
+  registered.diagnostics.add("draped_on_skin",
+                             take_registered_skin(target, wearer.surface, registered, !target_body.landmarks.empty()));
+  const auto transported = runner.run("transport_garment", 5, key_of(reference.key, found.key), [&] {
     return transport_garment(mesh, worn.drape, wearer, target, registered.map, {}, runner.progress());
   });
   const auto plane = mirror_plane_of(options, pattern);
