@@ -7,6 +7,7 @@
 
 #include "engine/alter/coarse_pattern.h"
 #include "engine/alter/cut_anew.h"
+#include "engine/alter/panel_twins.h"
 #include "engine/alter/read_operations.h"
 #include "engine/alter/search_tears.h"
 #include "engine/alter/sew_altered.h"
@@ -154,6 +155,14 @@ void forget_tears(const Pattern& pattern, const std::vector<std::vector<Vec2>>& 
   }
 }
 
+// Where one of two mirror images is cut anew, so is the other: two sides sewn differently would show.
+void add_twins(const Pattern& pattern, const std::vector<std::optional<PanelTwin>>& twins, RecutPanels& anew) {
+  for (const auto& [p, how] : RecutPanels(anew))
+    if (const auto& twin = twins[static_cast<std::size_t>(p)]; twin)
+      if (!pattern.panels[static_cast<std::size_t>(twin->panel)].locked)
+        anew.try_emplace(twin->panel, CutAnew{"as its mirror image", std::nullopt});
+}
+
 void tell_cut_anew(const RecutPanels& anew, AlterPatternResult& result) {
   for (const auto& [p, panel] : anew) {
     const std::string& name = result.panels[static_cast<std::size_t>(p)].panel;
@@ -269,10 +278,15 @@ AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, cons
     const std::string why = hopeless(result.panels.back(), options.stretch_limit);
     if (!why.empty() && !pattern.panels[p].locked) anew[static_cast<int>(p)].why = why;
   }
+  std::vector<std::optional<PanelTwin>> twins(pattern.panels.size());
+  if (options.symmetric && pattern.symmetry != Pattern::Symmetry::None)
+    twins = find_panel_twins(pattern, inserting.sheets);
+  add_twins(pattern, twins, anew);
   for (std::size_t known = anew.size();; known = anew.size()) {  // what is cut anew changes what else there is to do
     forget_tears(pattern, filled_targets, anew, result);
     read_operations(pattern, mesh, inserting, removing, options, anew, result);
     result.sewn = sew_altered(pattern, mesh, target_rest, inserting, removing, result, anew);
+    add_twins(pattern, twins, anew);
     if (anew.size() == known) break;
   }
   sum_up(anew, options.stretch_limit, result);

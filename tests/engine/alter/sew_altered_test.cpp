@@ -140,6 +140,24 @@ TEST(SewAltered, AsksForNewClothWhereThePanelsOwnIsTooSmall) {
   EXPECT_LT(result.area_imbalance, 1e-9);
 }
 
+TEST(SewAltered, WhatIsCutAnewOnTheLeftIsCutAnewOnTheRight) {
+  GridGarment pair = grid_garment({{"left", 0.4, 0.6, 20, 30, 0.0}, {"right", 0.4, 0.6, 20, 30, 0.0}});
+  pair.pattern.panels[0].translation = {-0.5, 0, 0};
+  pair.pattern.panels[1].translation = {0.1, 0, 0};
+  for (Panel& panel : pair.pattern.panels)
+    for (PanelEdge& edge : panel.edges) edge.locked = true;
+  const auto smaller_left = [](int panel, const Vec2& p) { return panel == 0 ? Vec2(0.6 * p.x(), 0.7 * p.y()) : p; };
+  AlterPatternOptions options;
+  options.max_tears_per_side = 0;
+  for (const bool symmetric : {true, false}) {
+    options.symmetric = symmetric;
+    const SewnPattern sewn = alter(pair, smaller_left, options).sewn;
+    ASSERT_EQ(sewn.pieces.size(), 2u);
+    EXPECT_TRUE(sewn.pieces[0].recut);
+    EXPECT_EQ(sewn.pieces[1].recut, symmetric);
+  }
+}
+
 // Both plies of every seam as drawn, against what the target eases there.
 void expect_plies_alike(const SewnPattern& sewn) {
   for (std::size_t s = 0; s < sewn.seams.size(); ++s) {
