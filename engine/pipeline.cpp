@@ -82,7 +82,7 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   auto [reference, found] = runner.run_both(
       [&](StageRunner& part) { return drape_on(garment, original.first, original.second, options, part); },
       [&](StageRunner& part) {
-        return part.run("register_bodies", 13, key_of(input_key(reference_body), imported.key), [&] {
+        return part.run("register_bodies", 14, key_of(input_key(reference_body), imported.key), [&] {
           const Landmarks given = given_landmarks(target_body, target.normalised_from_file);
           require_known(target_body, given, original.second.value);
           return register_bodies(original.second.value, imported.value.seen(), {.target_landmarks = given},

@@ -174,7 +174,7 @@ class LegSlide {
       : skeleton_(reference.skeleton), levels_(reference.legs, target.legs) {}
 
   Vec3 operator()(int bone, const Vec3& v) const {
-    if ((bone >= Head && bone < bone_of(Thigh, Left)) || bone >= bone_of(Foot, Left)) return v;
+    if (bone >= Head && bone < bone_of(Thigh, Left)) return v;
     const double level = v.y() / skeleton_.crotch_y;
     const Vec3 up = axis(bone);
     return v + (levels_(level) - level) * skeleton_.crotch_y / up.y() * up;
