@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/bodies/body_zones.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
-#include "engine/stages/body_zones.h"
 
 namespace toile {
 namespace {

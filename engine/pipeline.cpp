@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "engine/archive_stages.h"
+#include "engine/bodies/registered_skin.h"
 #include "engine/stage_options.h"
-#include "engine/stages/registered_skin.h"
 
 namespace toile {
 

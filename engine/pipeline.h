@@ -7,6 +7,7 @@
 #pragma once
 
 #include "engine/alter/alter_pattern.h"
+#include "engine/bodies/register_bodies.h"
 #include "engine/core/options.h"
 #include "engine/derive_in_loop.h"
 #include "engine/drape_altered.h"
@@ -15,7 +16,6 @@
 #include "engine/stages/build_fitting_map.h"
 #include "engine/stages/compare_fits.h"
 #include "engine/stages/drape.h"
-#include "engine/stages/register_bodies.h"
 #include "engine/stages/transport_garment.h"
 
 namespace toile {

@@ -4,17 +4,17 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/bodies/find_skeleton.h"
+#include "engine/bodies/make_builtin_body.h"
+#include "engine/bodies/make_mannequin.h"
+#include "engine/bodies/measure_body.h"
 #include "engine/core/content_hash.h"
 #include "engine/core/error.h"
 #include "engine/io/body_json.h"
 #include "engine/io/json.h"
 #include "engine/io/worn_garment.h"
 #include "engine/stages/build_fitting_map.h"
-#include "engine/stages/find_skeleton.h"
 #include "engine/stages/import_pattern.h"
-#include "engine/stages/make_builtin_body.h"
-#include "engine/stages/make_mannequin.h"
-#include "engine/stages/measure_body.h"
 
 namespace toile {
 namespace {

@@ -2,13 +2,13 @@
 // What a user hands in: bytes and how to read them.
 #pragma once
 
+#include "engine/bodies/import_body.h"
 #include "engine/core/archive_values.h"
 #include "engine/core/drape.h"
 #include "engine/core/fitting_map.h"
 #include "engine/core/pattern.h"
 #include "engine/core/pattern_mesh.h"
 #include "engine/core/types.h"
-#include "engine/stages/import_body.h"
 
 namespace toile {
 

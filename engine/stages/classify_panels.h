@@ -3,9 +3,9 @@
 // seams close. Source: design/sewing.md, section 5.
 #pragma once
 
+#include "engine/bodies/body_guides.h"
 #include "engine/core/pattern.h"
 #include "engine/core/pattern_mesh.h"
-#include "engine/stages/body_guides.h"
 
 namespace toile {
 

@@ -5,9 +5,9 @@
 // by the rest area of the reference fit; triangles degenerate in either map are left out and counted.
 #pragma once
 
+#include "engine/bodies/body_zones.h"
 #include "engine/core/fitting_map.h"
 #include "engine/core/pattern_mesh.h"
-#include "engine/stages/body_zones.h"
 
 namespace toile {
 

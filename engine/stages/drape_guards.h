@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "engine/stages/body_guides.h"
+#include "engine/bodies/body_guides.h"
 #include "engine/stages/classify_panels.h"
 #include "engine/stages/drape_quality.h"
 

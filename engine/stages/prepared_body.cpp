@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/stages/prepared_body.h"
 
-#include "engine/stages/find_skeleton.h"
+#include "engine/bodies/find_skeleton.h"
 
 namespace toile {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
+#include "engine/bodies/body_guides.h"
 #include "engine/geometry/distance_field.h"
-#include "engine/stages/body_guides.h"
 
 namespace toile {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdio>
 
+#include "engine/bodies/measure_scan.h"
 #include "engine/core/error.h"
 #include "engine/core/units.h"
 #include "engine/io/body_json.h"
 #include "engine/io/mesh_file.h"
 #include "engine/io/record_json.h"
-#include "engine/stages/measure_scan.h"
 #include "server/app/body_source.h"
 #include "server/app/command.h"
 #include "server/app/files.h"

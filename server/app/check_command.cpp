@@ -3,11 +3,11 @@
 #include <cctype>
 #include <cstdio>
 
+#include "engine/bodies/import_body.h"
 #include "engine/core/error.h"
 #include "engine/io/json.h"
 #include "engine/io/options_json.h"
 #include "engine/io/schema_check.h"
-#include "engine/stages/import_body.h"
 #include "engine/stages/import_pattern.h"
 #include "server/app/command.h"
 #include "server/app/files.h"

@@ -2,13 +2,13 @@
 // toile register: the body map alone.
 #include <cstdio>
 
+#include "engine/bodies/carry_landmarks.h"
+#include "engine/bodies/find_skeleton.h"
+#include "engine/bodies/measure_body.h"
+#include "engine/bodies/register_bodies.h"
 #include "engine/io/body_json.h"
 #include "engine/io/mesh_file.h"
 #include "engine/io/record_json.h"
-#include "engine/stages/carry_landmarks.h"
-#include "engine/stages/find_skeleton.h"
-#include "engine/stages/measure_body.h"
-#include "engine/stages/register_bodies.h"
 #include "server/app/body_source.h"
 #include "server/app/command.h"
 #include "server/app/files.h"

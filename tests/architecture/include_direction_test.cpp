@@ -54,13 +54,14 @@ const std::map<std::string, std::set<std::string>> kAllowed = {
     {"io", {"core", "geometry"}},
     {"render", {"core", "geometry"}},
     {"sim", {"core", "geometry", "numerics"}},
-    {"stages", {"core", "geometry", "numerics", "sim", "io", "render"}},
+    {"bodies", {"core", "geometry", "numerics", "io"}},
+    {"stages", {"core", "geometry", "numerics", "bodies", "sim", "io", "render"}},
     {"alter", {"core", "geometry", "numerics", "sim"}},
-    {"pipeline", {"core", "geometry", "numerics", "sim", "io", "render", "stages", "alter"}},
+    {"pipeline", {"core", "geometry", "numerics", "sim", "io", "render", "bodies", "stages", "alter"}},
     {"store", {"core"}},
-    {"worker", {"core", "geometry", "io", "render", "stages", "alter", "pipeline", "store"}},
-    {"http", {"core", "geometry", "io", "render", "stages", "alter", "pipeline", "store", "worker"}},
-    {"app", {"core", "geometry", "io", "render", "stages", "alter", "pipeline", "store", "worker", "http"}},
+    {"worker", {"core", "geometry", "io", "render", "bodies", "stages", "alter", "pipeline", "store"}},
+    {"http", {"core", "geometry", "io", "render", "bodies", "stages", "alter", "pipeline", "store", "worker"}},
+    {"app", {"core", "geometry", "io", "render", "bodies", "stages", "alter", "pipeline", "store", "worker", "http"}},
 };
 
 TEST(Architecture, RoomsOnlyIncludeTheRoomsBelowThem) {

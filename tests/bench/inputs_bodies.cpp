@@ -2,11 +2,11 @@
 // Bodies in: reading, repairing and normalising scans of 2.5k to 50k triangles, beside what the result misses.
 #include <cstdio>
 
+#include "engine/bodies/import_body.h"
 #include "engine/geometry/closest_point.h"
 #include "engine/geometry/decimate.h"
 #include "engine/geometry/half_edges.h"
 #include "engine/io/mesh_file.h"
-#include "engine/stages/import_body.h"
 #include "tests/bench/inputs.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/sidecar.h"

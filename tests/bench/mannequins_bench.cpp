@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "engine/bodies/measure_body.h"
 #include "engine/core/error.h"
 #include "engine/geometry/half_edges.h"
 #include "engine/render/png.h"
 #include "engine/render/scene.h"
-#include "engine/stages/measure_body.h"
 #include "engine/stages/render_views.h"
 #include "tests/bench/bench.h"
 #include "tests/support/crossing_triangles.h"

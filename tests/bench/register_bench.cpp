@@ -2,8 +2,8 @@
 // toile-bench register: time of a body map against its error, over the scans and over resolutions of one scan.
 #include <cstdio>
 
+#include "engine/bodies/register_bodies.h"
 #include "engine/geometry/decimate.h"
-#include "engine/stages/register_bodies.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/register_tables.h"
 #include "tests/support/registration/registration_score.h"

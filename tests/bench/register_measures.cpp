@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "engine/stages/find_skeleton.h"
-#include "engine/stages/measure_scan.h"
+#include "engine/bodies/find_skeleton.h"
+#include "engine/bodies/measure_scan.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/register_tables.h"
 #include "tests/support/registration/posed_body.h"

@@ -2,9 +2,9 @@
 // Every pair of ../shared/data whose truth is known: errors of the map, and of what is measured on the mapped body.
 #include <cstdio>
 
-#include "engine/stages/find_skeleton.h"
-#include "engine/stages/measure_body.h"
-#include "engine/stages/register_bodies.h"
+#include "engine/bodies/find_skeleton.h"
+#include "engine/bodies/measure_body.h"
+#include "engine/bodies/register_bodies.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/register_tables.h"
 #include "tests/support/registration/registration_score.h"

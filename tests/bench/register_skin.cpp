@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A garment on a scan's own skin and on the reference that was registered to it, each against the same garment on the
 // body the scan was made of.
+#include "engine/bodies/find_skeleton.h"
+#include "engine/bodies/register_bodies.h"
 #include "engine/geometry/mesh_slicer.h"
 #include "engine/pipeline_inputs.h"
 #include "engine/stages/build_fitting_map.h"
 #include "engine/stages/compare_fits.h"
-#include "engine/stages/find_skeleton.h"
-#include "engine/stages/register_bodies.h"
 #include "engine/stages/transport_garment.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/register_tables.h"

@@ -2,8 +2,8 @@
 // Imitated scans of re-posed bodies, drawn at run time: three for every body of ../shared/data.
 #include <cstdio>
 
+#include "engine/bodies/register_bodies.h"
 #include "engine/core/error.h"
-#include "engine/stages/register_bodies.h"
 #include "tests/bench/register_tables.h"
 #include "tests/support/registration/posed_body.h"
 #include "tests/support/shared_body.h"

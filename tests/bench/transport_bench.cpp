@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <fstream>
 
+#include "engine/bodies/register_bodies.h"
 #include "engine/core/error.h"
 #include "engine/render/contact_sheet.h"
-#include "engine/stages/register_bodies.h"
 #include "engine/stages/render_views.h"
 #include "engine/stages/transport_garment.h"
 #include "tests/bench/bench.h"

@@ -3,9 +3,9 @@
 // for is drawn.
 #include <gtest/gtest.h>
 
+#include "engine/bodies/carry_landmarks.h"
 #include "engine/core/error.h"
 #include "engine/outputs.h"
-#include "engine/stages/carry_landmarks.h"
 #include "tests/support/shared_data.h"
 
 namespace toile {

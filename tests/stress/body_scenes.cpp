@@ -3,10 +3,10 @@
 #include <cmath>
 #include <map>
 
+#include "engine/bodies/import_body.h"
+#include "engine/bodies/make_builtin_body.h"
 #include "engine/core/text.h"
 #include "engine/io/mesh_file.h"
-#include "engine/stages/import_body.h"
-#include "engine/stages/make_builtin_body.h"
 #include "tests/stress/part_scenes.h"
 #include "tests/stress/patchwork.h"
 #include "tests/support/shipped_examples.h"

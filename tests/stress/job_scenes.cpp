@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 
+#include "engine/bodies/make_builtin_body.h"
 #include "engine/core/text.h"
 #include "engine/io/mesh_file.h"
-#include "engine/stages/make_builtin_body.h"
 #include "tests/stress/job_scene.h"
 #include "tests/stress/patchwork.h"
 #include "tests/support/random_people.h"

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "engine/stages/find_skeleton.h"
+#include "engine/bodies/find_skeleton.h"
 #include "engine/stages/import_pattern.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/shared_data.h"

@@ -3,9 +3,9 @@
 
 #include <Eigen/SVD>
 
+#include "engine/bodies/find_skeleton.h"
+#include "engine/bodies/measure_body.h"
 #include "engine/geometry/closest_point.h"
-#include "engine/stages/find_skeleton.h"
-#include "engine/stages/measure_body.h"
 #include "tests/support/shared_body.h"
 
 namespace toile::test {

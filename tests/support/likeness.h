@@ -2,7 +2,7 @@
 // How like a mannequin is to the person whose tape it was made from: the fifteen bodies of ../shared/data.
 #pragma once
 
-#include "engine/stages/make_mannequin.h"
+#include "engine/bodies/make_mannequin.h"
 
 namespace toile::test {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "engine/stages/mannequin_proportions.h"
+#include "engine/bodies/mannequin_proportions.h"
 #include "tests/support/dice.h"
 
 namespace toile::test {

@@ -2,7 +2,7 @@
 // People as a tailor might meet them: tape measurements that go together, from a seed.
 #pragma once
 
-#include "engine/stages/make_mannequin.h"
+#include "engine/bodies/make_mannequin.h"
 
 namespace toile::test {
 

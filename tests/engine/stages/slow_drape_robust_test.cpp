@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bodies/find_skeleton.h"
+#include "engine/bodies/import_body.h"
 #include "engine/core/error.h"
 #include "engine/geometry/decimate.h"
 #include "engine/stages/arrange_panels.h"
-#include "engine/stages/find_skeleton.h"
-#include "engine/stages/import_body.h"
 #include "tests/support/dice.h"
 #include "tests/support/dressed.h"
 #include "tests/support/shared_data.h"

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/bodies/make_form.h"
+#include "engine/bodies/register_bodies.h"
 #include "engine/geometry/closest_point.h"
-#include "engine/stages/make_form.h"
-#include "engine/stages/register_bodies.h"
 #include "tests/support/grid_garment.h"
 #include "tests/support/solids.h"
 #include "tests/support/tubes.h"

@@ -8,12 +8,12 @@
 
 #include <Eigen/Geometry>
 
+#include "engine/bodies/body_bones.h"
+#include "engine/bodies/find_skeleton.h"
+#include "engine/bodies/import_body.h"
 #include "engine/core/units.h"
 #include "engine/geometry/components.h"
 #include "engine/geometry/surface_operators.h"
-#include "engine/stages/body_bones.h"
-#include "engine/stages/find_skeleton.h"
-#include "engine/stages/import_body.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/sidecar.h"
 

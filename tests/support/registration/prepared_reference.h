@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/stages/register_bodies.h"
+#include "engine/bodies/register_bodies.h"
 
 namespace toile::test {
 

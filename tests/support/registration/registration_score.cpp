@@ -5,9 +5,9 @@
 #include <numeric>
 #include <random>
 
+#include "engine/bodies/body_bones.h"
+#include "engine/bodies/import_body.h"
 #include "engine/geometry/closest_point.h"
-#include "engine/stages/body_bones.h"
-#include "engine/stages/import_body.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/sidecar.h"
 
