@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <type_traits>
 
 namespace toile {
 namespace {
@@ -50,6 +51,18 @@ template <int W>
   for (int b = W; b-- > 0;) {
     y[block.column + b] = x[b];
     for (int a = 0; a < b; ++a) x[a] -= static_cast<double>(values[b * (b - 1) / 2 + a]) * x[b];
+  }
+}
+
+// Calls `work` with the width as a constant, so that a block's loops over its columns unroll.
+template <class Work>
+[[gnu::always_inline]] inline void with_width(std::int32_t width, Work&& work) {
+  static_assert(kMostColumns == 4);
+  switch (width) {
+    case 1: return work(std::integral_constant<int, 1>());
+    case 2: return work(std::integral_constant<int, 2>());
+    case 3: return work(std::integral_constant<int, 3>());
+    default: return work(std::integral_constant<int, 4>());
   }
 }
 
@@ -112,14 +125,9 @@ void BlockFactor::forward(int from, int to, FactorRow* y) const {
   const std::int32_t last = block_of_[static_cast<std::size_t>(to)];
   for (std::int32_t k = block_of_[static_cast<std::size_t>(from)]; k < last; ++k) {
     const Block& block = blocks_[static_cast<std::size_t>(k)];
-    const std::int32_t* rows = rows_.data() + block.row_begin;
-    const float* values = values_.data() + block.value_begin;
-    switch (block.width) {
-      case 1: forward_block<1>(block, rows, values, y); break;
-      case 2: forward_block<2>(block, rows, values, y); break;
-      case 3: forward_block<3>(block, rows, values, y); break;
-      default: forward_block<4>(block, rows, values, y);
-    }
+    with_width(block.width, [&](auto width) {
+      forward_block<width>(block, rows_.data() + block.row_begin, values_.data() + block.value_begin, y);
+    });
   }
 }
 
@@ -127,14 +135,9 @@ void BlockFactor::backward(int from, int to, FactorRow* y) const {
   const std::int32_t first = block_of_[static_cast<std::size_t>(from)];
   for (std::int32_t k = block_of_[static_cast<std::size_t>(to)]; k-- > first;) {
     const Block& block = blocks_[static_cast<std::size_t>(k)];
-    const std::int32_t* rows = rows_.data() + block.row_begin;
-    const float* values = values_.data() + block.value_begin;
-    switch (block.width) {
-      case 1: backward_block<1>(block, rows, values, y); break;
-      case 2: backward_block<2>(block, rows, values, y); break;
-      case 3: backward_block<3>(block, rows, values, y); break;
-      default: backward_block<4>(block, rows, values, y);
-    }
+    with_width(block.width, [&](auto width) {
+      backward_block<width>(block, rows_.data() + block.row_begin, values_.data() + block.value_begin, y);
+    });
   }
 }
 
