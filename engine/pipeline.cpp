@@ -16,7 +16,7 @@ Keyed<Pattern> take_in(const GarmentInput& garment, StageRunner& runner) {
 }
 
 Keyed<Body> take_in(const BodyInput& body, StageRunner& runner) {
-  return runner.run("import_body", 9, input_key(body), [&] { return read_body(body); });
+  return runner.run("import_body", 10, input_key(body), [&] { return read_body(body); });
 }
 
 Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>& pattern, const Keyed<Body>& wearer,
@@ -75,14 +75,14 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
         return std::pair(std::move(taken_in), take_in(reference_body, part));
       },
       [&](StageRunner& part) {
-        return part.run("import_target_body", 10, input_key(target_body),
+        return part.run("import_target_body", 11, input_key(target_body),
                         [&] { return read_target_body(target_body); });
       });
   Body target = imported.value.body;
   auto [reference, found] = runner.run_both(
       [&](StageRunner& part) { return drape_on(garment, original.first, original.second, options, part); },
       [&](StageRunner& part) {
-        return part.run("register_bodies", 14, key_of(input_key(reference_body), imported.key), [&] {
+        return part.run("register_bodies", 15, key_of(input_key(reference_body), imported.key), [&] {
           const Landmarks given = given_landmarks(target_body, target.normalised_from_file);
           require_known(target_body, given, original.second.value);
           return register_bodies(original.second.value, imported.value.seen(), {.target_landmarks = given},
@@ -94,7 +94,7 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   if (imported.value.patch_triangles > 0) stand_on_soles(target, registered);
   registered.diagnostics.add("draped_on_skin",
                              take_registered_skin(target, wearer.surface, registered, !target_body.landmarks.empty()));
-  const auto transported = runner.run("transport_garment", 5, key_of(reference.key, found.key), [&] {
+  const auto transported = runner.run("transport_garment", 6, key_of(reference.key, found.key), [&] {
     return transport_garment(mesh, worn.drape, wearer, target, registered.map, {}, runner.progress());
   });
   const auto plane = mirror_plane_of(options, pattern);

@@ -7,6 +7,7 @@
 
 #include "engine/bodies/body_bones.h"
 #include "engine/bodies/body_slices.h"
+#include "engine/bodies/trunk_sides.h"
 #include "engine/geometry/convex_hull.h"
 
 namespace toile {
@@ -17,6 +18,7 @@ namespace {
 constexpr double kFullTrunk = 0.7, kFullLimb = 0.7, kFullHead = 1.0, kFullArm = 1.0;
 constexpr double kByProfile = 0.5;  // share of the trunk's profile in its full skinning
 constexpr int kProfileSmoothing = 20;
+constexpr double kTrunkAtAll = 1e-3;  // least share of the trunk's bones in a vertex that slides with it
 
 double full_share(std::size_t bone) {
   if (bone < Head) return kFullTrunk;
@@ -228,17 +230,24 @@ Points3 coarse_fit(const Points3& reference_vertices, const Eigen::MatrixXd& wei
   const Moves moves = mean_moves(full, soft_moves(reference, target));
   const TrunkProfile profile(reference, target, full);
   const LegSlide slide(reference, target);
+  const TrunkSides sides(reference, target);
   Points3 fitted(reference_vertices.rows(), 3);
   for (Eigen::Index v = 0; v < fitted.rows(); ++v) {
     const Vec3 p = reference_vertices.row(v);
-    Vec3 x = Vec3::Zero();
+    Vec3 x = Vec3::Zero(), side = Vec3::Zero();
+    double trunk = 0.0;  // share of its bones
     for (int b = 0; b < kBoneCount; ++b)
       if (const double w = weights(v, b); w > 0) {
         const auto bone = static_cast<std::size_t>(b);
         const Vec3 q = slide(b, p);
         x += w * moves[bone](q);
-        if (b < Head) x += w * kFullTrunk * kByProfile * (profile(q) - full[bone](q));
+        if (b >= Head) continue;
+        x += w * kFullTrunk * kByProfile * (profile(q) - full[bone](q));
+        const Vec3 beside = sides.beside(q);
+        side += w * (moves[bone](beside) + kFullTrunk * kByProfile * (profile(beside) - full[bone](beside)));
+        trunk += w;
       }
+    if (trunk > kTrunkAtAll) x += trunk * sides.slide(p, side / trunk);
     fitted.row(v) = x;
   }
   return fitted;

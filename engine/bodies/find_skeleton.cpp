@@ -8,6 +8,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/geometry/surface_operators.h"
 
 namespace toile {
 namespace {
@@ -30,6 +31,7 @@ constexpr Range kCrotchUsual{0.40, 0.52}, kArmpitUsual{0.68, 0.80}, kNeckUsual{0
     kNeckGirthUsual{0.15, 0.35};
 constexpr Range kArmUsual{0.33, 0.50};
 constexpr double kArmsDiffer = 0.06;
+constexpr int kTaubinSteps = 4;
 
 [[noreturn]] void refuse(std::string message) {
   throw Error(ErrorCode::BodyNotRecognised, "body", std::move(message));
@@ -58,7 +60,7 @@ class SkeletonFinder {
     s_.chest = trunk_centre(s_.armpit_y - kUnderArmpit * h_);
     s_.neck = trunk_centre(s_.neck_y);
     for (const Side side : {Left, Right}) s_.legs[side] = find_leg(side);
-    s_.arms = find_arms(body_, h_, s_.armpit_y);
+    s_.arms = find_arms(without_noise(), h_, s_.armpit_y);
     check_arms();
     return std::move(result_);
   }
@@ -158,6 +160,13 @@ class SkeletonFinder {
     if (apart > kArmsDiffer)
       refuse(print_text(
           "one arm is %.2f of the height longer than the other: both whole arms are needed, free of the trunk", apart));
+  }
+
+  // Noise lengthens ways along edges, and most of all in a hand's fine triangles: joints at shares of such a way would
+  // come to lie too near to the finger tips.
+  TriangleMesh without_noise() const {
+    if (surface_roughness(body_) <= kRoughScan) return body_;
+    return {taubin_smooth(body_, kTaubinSteps), body_.triangles};
   }
 
   Vec3 trunk_centre(double y) const {

@@ -47,7 +47,7 @@ const std::map<std::string, Entry>& benches() {
       {"queue", {"what the queue costs a job, in flushes of the disk: [FOLDER]", bench_queue}},
       {"register",
        {"body maps: time against error over resolutions, growth; [pairs [TARGET] | variants [BODY] | measures "
-        "[TARGET...] | skin [SCAN...]]",
+        "[TARGET...] | where [TARGET...] | skin [SCAN...]]",
         bench_register}},
       {"stages", {"a whole job stage by stage: [SCENE...] [--triangles N] [--outputs none|images|all]", bench_stages}},
       {"transport",

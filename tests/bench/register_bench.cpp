@@ -50,6 +50,7 @@ int bench_register(const Arguments& arguments) {
   if (!arguments.words.empty() && arguments.words.front() == "variants") return bench_register_variants(arguments);
   if (!arguments.words.empty() && arguments.words.front() == "measures") return bench_register_measures(arguments);
   if (!arguments.words.empty() && arguments.words.front() == "skin") return bench_register_skin(arguments);
+  if (!arguments.words.empty() && arguments.words.front() == "where") return bench_register_where(arguments);
   const std::string woman = "mh_female_average", mean = "ggg_mean_all";
   const double start = cpu_seconds();
   const RegistrationReference small = prepare_reference(test::load_shared_body(woman));

@@ -14,19 +14,19 @@
 namespace toile::bench {
 namespace {
 
-test::RegistrationCase find_case(const std::string& name) {
-  if (name.starts_with("scan_")) return test::scan_case(name);
-  const std::size_t colon = name.find(':');
-  if (colon == std::string::npos) return test::shuffled_case(name);
-  return test::variant_case(name.substr(0, colon), static_cast<unsigned>(std::atoi(name.c_str() + colon + 1)));
-}
-
 MeasureBodyResult measure(TriangleMesh body) {
   body.vertices.col(1).array() -= body.vertices.col(1).minCoeff();  // a scan's frame has no soles to stand on
   return measure_body(body, find_skeleton(body).skeleton);
 }
 
 }  // namespace
+
+test::RegistrationCase find_case(const std::string& name) {
+  if (name.starts_with("scan_")) return test::scan_case(name);
+  const std::size_t colon = name.find(':');
+  if (colon == std::string::npos) return test::shuffled_case(name);
+  return test::variant_case(name.substr(0, colon), static_cast<unsigned>(std::atoi(name.c_str() + colon + 1)));
+}
 
 int bench_register_measures(const Arguments& arguments) {
   std::vector<std::string> names(arguments.words.begin() + 1, arguments.words.end());

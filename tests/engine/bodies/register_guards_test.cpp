@@ -112,7 +112,7 @@ struct Variant {
   const char* reference;
   const char* body;
   unsigned seed;
-  double median, p95;  // mm, 1.3 times the gates of the shared scans
+  double median, p95, landmarks = 15.6;  // mm, 1.3 times the gates of the shared scans
 };
 
 class SlowRegisterVariants : public testing::TestWithParam<Variant> {};
@@ -126,6 +126,7 @@ TEST_P(SlowRegisterVariants, StaysNearTheGatesOfTheSharedScans) {
   const auto score = score_registration(result.map.mapped, prepared.weights, known, v.reference, true);
   EXPECT_LT(score.median * 1e3, v.median);
   EXPECT_LT(score.p95 * 1e3, v.p95);
+  EXPECT_LT(score.landmark_median * 1e3, v.landmarks);
   EXPECT_LT(score.surface_mean * 1e3, 1.3);
   EXPECT_LT(score.surface_p95 * 1e3, 3.25);
 }
@@ -136,7 +137,10 @@ INSTANTIATE_TEST_SUITE_P(Bodies, SlowRegisterVariants,
                                          Variant{kWoman, "mh_female_heavy_short", 103, 15.6, 39},
                                          Variant{kWoman, "mh_child_8y", 104, 15.6, 39},
                                          Variant{kWoman, "mh_female_thin_tall", 37, 15.6, 39},
-                                         Variant{kWoman, "mh_male_average", 105, 20.8, 58.5}));
+                                         Variant{kWoman, "mh_female_heavy_tall", 32, 15.6, 39},
+                                         Variant{kWoman, "mh_male_average", 105, 20.8, 58.5, 33.8},
+                                         Variant{kWoman, "mh_male_old_heavy", 37, 20.8, 58.5, 33.8},
+                                         Variant{kWoman, "mh_male_old_heavy", 38, 20.8, 58.5, 33.8}));
 
 }  // namespace
 }  // namespace toile
