@@ -34,10 +34,10 @@ template <class A>
 void archive(A& a, DrapeOptions& v) {
   auto& [friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, stop_settled, lift,
          drafted_for, pin_openings, keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, self_contact,
-         first_rung] = v;
+         first_rung, coarse_triangles] = v;
   a(friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, stop_settled, lift,
     drafted_for, pin_openings, keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, self_contact,
-    first_rung);
+    first_rung, coarse_triangles);
 }
 template <class A>
 void archive(A& a, DrapeFinding& v) {

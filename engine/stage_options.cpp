@@ -34,9 +34,9 @@ std::optional<PresetError> measured_error(const AlterOptions& options) {
   if (garment_triangles(options) != garment_triangles(plain) || options.solver != SolverKind::Default)
     return std::nullopt;
   switch (options.preset) {
-    case Preset::Draft: return PresetError{0.0086, 9.1e-3, 2.2e-3};
-    case Preset::Standard: return PresetError{0.0077, 9.0e-3, 0.8e-3};
-    case Preset::Fine: return std::nullopt;
+    case Preset::Draft: return PresetError{0.0049, 4.17e-3, 1.94e-3};
+    case Preset::Standard: return PresetError{0.0023, 2.92e-3, 0.92e-3};
+    case Preset::Fine: return PresetError{0.0017, 2.84e-3, 0.68e-3};
   }
   return std::nullopt;
 }

@@ -8,9 +8,9 @@ namespace toile {
 
 struct FittingMap {
   std::vector<Mat2> tensor;      // #F, rest frame -> tangent frame of the drape, [[|Fu|, |Fv| sin s], [0, |Fv| cos s]]
-  Eigen::VectorXd stretch_weft;  // #F, |Fu| - 1, dimensionless, > 0 is tension
-  Eigen::VectorXd stretch_warp;  // #F, |Fv| - 1
-  Eigen::VectorXd shear;         // #F, asin(Fu.Fv / |Fu||Fv|), rad
+  Eigen::VectorXd stretch_weft;  // #F, |Fu| - 1 recovered from neighbours, dimensionless, > 0 is tension
+  Eigen::VectorXd stretch_warp;  // #F, |Fv| - 1, recovered too
+  Eigen::VectorXd shear;         // #F, asin(Fu.Fv / |Fu||Fv|), recovered too, rad
   Eigen::VectorXd rest_area;     // #F, m^2
   std::vector<bool> degenerate;  // #F, the drape has no usable tangent frame there; tensor from the polar frame
 

@@ -87,9 +87,10 @@ void Contact::add_hessian(const Points3& nodes, Curvature curvature, BlockHessia
   }
 }
 
-void Contact::hold_friction(const FrictionState& state) {
+void Contact::start_friction(const FrictionState& state, bool for_good) {
   load_ = state.load, anchor_ = state.anchor, normal_ = state.normal;
-  frozen_ = held_ = true;
+  frozen_ = true;
+  held_ = for_good;
 }
 
 void Contact::freeze_friction(const Points3& nodes) {

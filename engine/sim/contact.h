@@ -52,8 +52,9 @@ class Contact {
 
   // Friction as the last freeze left it.
   FrictionState friction() const { return {load_, anchor_, normal_}; }
-  // Friction as given, for good: freezes change nothing any more.
-  void hold_friction(const FrictionState& state);
+  // Friction as given to begin with, or `for_good`: freezes change nothing any more.
+  void start_friction(const FrictionState& state, bool for_good);
+  bool frozen() const { return frozen_; }
 
   // Diagonal of an upper bound of the contact's Hessian at the nodes of the last evaluation, N/m.
   void stiffness_diagonal(Eigen::VectorXd& diagonal) const;

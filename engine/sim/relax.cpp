@@ -78,7 +78,7 @@ class Relaxation {
     minimiser.set_helper(&helper_);
     energy_.helper = &helper_;
     const QuasiNewton::Energy evaluate = [this](const Points3& x, Points3& g) { return energy_.evaluate(x, g); };
-    if (energy_.contact()) freeze_at_start(start);
+    if (energy_.contact() && !energy_.contact()->frozen()) freeze_at_start(start);
     if (energy_.edge_contact) energy_.edge_contact->look(start);
     if (energy_.cloth_contact) energy_.cloth_contact->refresh(start);
     if (energy_.cloth_contact || energy_.mirror)

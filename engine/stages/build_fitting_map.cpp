@@ -5,6 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/geometry/triangle_gradient.h"
+#include "engine/stages/recover_stretch.h"
 
 namespace toile {
 namespace {
@@ -70,6 +71,7 @@ FittingMap build_fitting_map(const PatternMesh& mesh, const Points2& rest, const
     const double lengths = fu.norm() * fv.norm();
     map.shear[f] = lengths > 0.0 ? std::asin(std::clamp(fu.dot(fv) / lengths, -1.0, 1.0)) : 0.0;
   }
+  recover_stretch(mesh, rest, map);
   return map;
 }
 
@@ -89,6 +91,7 @@ FittingMap fitting_map_of(const PatternMesh& mesh, std::vector<Mat2> tensors) {
     map.stretch_warp[f] = tensor.col(1).norm() - 1.0;
     map.shear[f] = std::atan2(tensor(0, 1), tensor(1, 1));
   }
+  recover_stretch(mesh, mesh.rest, map);
   return map;
 }
 

@@ -3,6 +3,8 @@
 //
 // F = Ds Dm^-1 = [Fu Fv] maps the flat triangle to the drape; its tensor in the tangent frame e1 = Fu/|Fu|,
 // n = Fu x Fv / |Fu x Fv|, e2 = n x e1 is [[|Fu|, |Fv| sin s], [0, |Fv| cos s]], s the shear angle.
+// Tensors are those of the triangles, which the derivation reproduces; stretch and shear, which are shown and compared,
+// are recovered from their neighbours' (recover_stretch.h).
 // Source: [Eggler2024, Sec. 4]. Lengths in metres; stretch dimensionless; shear in radians.
 #pragma once
 

@@ -50,7 +50,7 @@ class RestSeeker {
     contact_options.stiffness = stiffness;
     contact_options.friction = options_.friction;
     Contact contact(garment_.cloth, garment_.field, contact_options);
-    if (garment_.friction) contact.hold_friction(*garment_.friction);
+    if (garment_.friction) contact.start_friction(*garment_.friction, garment_.hold_friction);
     EdgeContact edges(garment_.cloth, garment_.field, contact_options);
     DrapeEnergy energy(garment_.cloth, &contact, options_.gravity);
     energy.edge_contact = &edges;

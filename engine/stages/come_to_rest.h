@@ -18,7 +18,8 @@ struct GarmentOnBody {
   const NodeMirror* mirror = nullptr;       // not null: sought among symmetric drapes
   std::vector<std::vector<int>> watched;    // lines of nodes that tell whether it still moves
   bool worn = false;                        // it was at rest before
-  const FrictionState* friction = nullptr;  // not null: held for good, instead of frozen anew in rounds
+  const FrictionState* friction = nullptr;  // not null: of the start
+  bool hold_friction = false;               // that of the start for good, instead of frozen anew in rounds
 };
 
 // Overwrites the nodes and what the solver knows of diagnostics and quality. Returns friction as it is at the end.

@@ -7,9 +7,11 @@
 
 #include "engine/sim/sewing.h"
 #include "engine/stages/arrange_panels.h"
+#include "engine/stages/carry_drape.h"
 #include "engine/stages/come_to_rest.h"
 #include "engine/stages/drape_series.h"
 #include "engine/stages/find_node_mirror.h"
+#include "engine/stages/mesh_panels.h"
 #include "engine/stages/prepared_body.h"
 
 namespace toile {
@@ -23,6 +25,8 @@ constexpr double kMoreLift = 0.03;  // m
 constexpr SewingStage kFirmStage{10000, 1.0, 40};
 
 constexpr double kTangledShare = 0.1;  // of piercings in the triangles: worn and transported garments have under 0.01
+
+constexpr double kMuchFiner = 1.5;  // times the triangles of the coarse mesh are worth draping that first
 
 constexpr double kPinShare = 50;  // stiffness of a pin over that of contact: 1 N/m of tension moves it by 0.2 mm
 
@@ -44,6 +48,8 @@ void check_options(const DrapeOptions& o) {
   check(o.shear_limit_deg >= 0 && o.shear_limit_deg <= 45, "shear_limit_deg", "0 to 45");
   check(o.lift >= 0 && o.lift <= 0.1, "lift", "0 to 0.1 m");
   check(o.first_rung >= 0 && o.first_rung <= kLastRung, "first_rung", "0 or 1");
+  check(o.coarse_triangles == 0 || (o.coarse_triangles >= 500 && o.coarse_triangles <= 200000), "coarse_triangles",
+        "0, or 500 to 200000");
 }
 
 void check_start(const PatternMesh& mesh, const Drape& start) {
@@ -70,9 +76,8 @@ class Draper {
     prepare(placed_vertices(pattern_, mesh_));
     for (int rung = options_.first_rung;; ++rung) {
       attempt_from_flat(rung);
-      const std::vector<DrapeFinding>& findings = result_.diagnostics.findings;
-      const auto refused = std::find_if(findings.begin(), findings.end(), [](const auto& f) { return f.refused; });
-      if (refused == findings.end()) return result_;
+      const DrapeFinding* refused = refusal();
+      if (!refused) return result_;
       if (rung == kLastRung)
         throw Error(ErrorCode::DrapeFailed, "garment",
                     "no acceptable drape on this body: " + refused->message +
@@ -80,11 +85,29 @@ class Draper {
     }
   }
 
+  // From the end of the same garment from flat on a coarser mesh. False: a guard refuses the result.
+  bool from_coarser(const Draper& coarse) {
+    const DrapeEnd start = carry_drape(pattern_, coarse.mesh_, {coarse.result_.drape, coarse.end_}, mesh_);
+    prepare(placed_vertices(pattern_, mesh_));
+    const DrapeDiagnostics& before = coarse.result_.diagnostics;
+    result_.diagnostics.rung = before.rung;
+    result_.diagnostics.upper_shift = before.upper_shift;
+    result_.diagnostics.sewing_iterations = before.sewing_iterations;
+    Points3 nodes = start.drape.nodes;
+    make_symmetric(nodes);
+    start_ = &start.held;
+    rested_ = true;
+    if (!result_.diagnostics.bodice) hold_waist(nodes);
+    finish(nodes);
+    start_ = nullptr;
+    return refusal() == nullptr;
+  }
+
   DrapeResult from_start(Points3 start) {
     Points3 vertices(mesh_.vertex_count(), 3);
     for (int v = 0; v < mesh_.vertex_count(); ++v)
       vertices.row(v) = start.row(mesh_.node_of_vertex[static_cast<std::size_t>(v)]);
-    worn_ = true;
+    worn_ = rested_ = true;
     prepare(vertices);
     if (!options_.keep_drape) make_symmetric(start);
     if (!result_.diagnostics.bodice) hold_waist(start);
@@ -99,8 +122,9 @@ class Draper {
     return result_;
   }
 
-  void hold(const HeldDrape& held) { held_ = &held; }  // must outlive this
+  void hold(const HeldDrape& held) { start_ = &held, hold_friction_ = true; }  // must outlive this
   const HeldDrape& end() const { return end_; }
+  const DrapeResult& result() const { return result_; }
 
  private:
   // Which panel dresses what, told by `vertices` (#V x 3), and the field that suits.
@@ -113,6 +137,12 @@ class Draper {
       result_.diagnostics.bodice = garment_.bodice;
     }
     field_ = &prepared_.field(body_.skeleton && !garment_.bodice);
+  }
+
+  const DrapeFinding* refusal() const {
+    const std::vector<DrapeFinding>& findings = result_.diagnostics.findings;
+    const auto refused = std::find_if(findings.begin(), findings.end(), [](const auto& f) { return f.refused; });
+    return refused == findings.end() ? nullptr : &*refused;
   }
 
   void attempt_from_flat(int rung) {
@@ -192,7 +222,7 @@ class Draper {
     const std::vector<int>& nodes = waist_;
     double height = 0;
     for (int n : nodes) height += start(n, 1) / static_cast<double>(nodes.size());
-    if (held_) height = held_->hold_height;
+    if (start_) height = start_->hold_height;
     for (int n : nodes) holds_.push_back({n, height, options_.contact_stiffness * cloth_.node_area[n]});
     result_.diagnostics.hold_height = height;
   }
@@ -237,8 +267,9 @@ class Draper {
                                 .pins = pins_,
                                 .mirror = mirror_ ? &*mirror_ : nullptr,
                                 .watched = free_lines(pattern_, mesh_),
-                                .worn = worn_,
-                                .friction = held_ ? &held_->friction : nullptr};
+                                .worn = rested_,
+                                .friction = start_ ? &start_->friction : nullptr,
+                                .hold_friction = hold_friction_};
     end_ = {come_to_rest(garment, start, options_, result_, progress_), result_.diagnostics.hold_height};
   }
 
@@ -258,29 +289,64 @@ class Draper {
   std::vector<Hold> holds_;
   std::vector<Pin> pins_;
   std::optional<NodeMirror> mirror_;  // where body and garment are the same on both sides
-  const HeldDrape* held_ = nullptr;   // null: friction is frozen anew in rounds
+  const HeldDrape* start_ = nullptr;  // of the start; null: from flat, or none is known
+  bool hold_friction_ = false;        // that of the start for good, instead of frozen anew in rounds
   HeldDrape end_;
-  bool worn_ = false;  // the garment is judged where it hangs on this body, not where it was placed
+  bool worn_ = false;    // the garment is judged where it hangs on this body, not where it was placed
+  bool rested_ = false;  // it starts from a rest
   DrapeResult result_;
 };
+
+// Whether a coarse drape first makes a difference: without friction there is one way to rest only.
+bool begins_coarse(const PatternMesh& mesh, const DrapeOptions& options) {
+  return options.coarse_triangles > 0 && mesh.triangle_count() > kMuchFiner * options.coarse_triangles &&
+         options.friction > 0 && options.solver != SolverKind::Pbd;
+}
+
+// The same coarse drape for every fine mesh, whatever is asked of that.
+DrapeOptions coarse_options(const DrapeOptions& options) {
+  DrapeOptions coarse = options;
+  coarse.solver = SolverKind::Default;
+  coarse.stop_residual = DrapeOptions().stop_residual;
+  coarse.stop_settled = DrapeOptions().stop_settled;
+  return coarse;
+}
+
+bool drape_from_coarse(Draper& draper, const Pattern& pattern, PreparedBody& body, const DrapeOptions& given,
+                       const Progress* progress) {
+  report(progress, "sew", 0);
+  Progress quiet;
+  if (progress) quiet.cancelled = progress->cancelled;
+  const DrapeOptions options = coarse_options(given);
+  const PatternMesh mesh = mesh_panels(pattern, {.triangles = options.coarse_triangles}, &quiet);
+  Draper coarse(pattern, mesh, body, options, &quiet);
+  coarse.from_flat();
+  return draper.from_coarser(coarse);
+}
+
+DrapeResult drape_whole(const Pattern& pattern, const PatternMesh& mesh, const Body& given, const DrapeOptions& options,
+                        HeldDrape* end, Progress* progress) {
+  check_options(options);
+  PreparedBody body(given);
+  auto draper = std::make_unique<Draper>(pattern, mesh, body, options, progress);
+  if (!begins_coarse(mesh, options) || !drape_from_coarse(*draper, pattern, body, options, progress)) {
+    draper = std::make_unique<Draper>(pattern, mesh, body, options, progress);
+    draper->from_flat();
+  }
+  if (end) *end = draper->end();
+  return draper->result();
+}
 
 }  // namespace
 
 DrapeResult drape(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const DrapeOptions& options,
                   Progress* progress) {
-  check_options(options);
-  PreparedBody prepared(body);
-  return Draper(pattern, mesh, prepared, options, progress).from_flat();
+  return drape_whole(pattern, mesh, body, options, nullptr, progress);
 }
 
 DrapeResult drape_to_hold(const Pattern& pattern, const PatternMesh& mesh, const Body& body,
                           const DrapeOptions& options, HeldDrape& end, Progress* progress) {
-  check_options(options);
-  PreparedBody prepared(body);
-  Draper draper(pattern, mesh, prepared, options, progress);
-  DrapeResult result = draper.from_flat();
-  end = draper.end();
-  return result;
+  return drape_whole(pattern, mesh, body, options, &end, progress);
 }
 
 DrapeResult drape_held(const Pattern& pattern, const PatternMesh& mesh, const Body& body, const Drape& start,

@@ -2,7 +2,8 @@
 // Drape a garment on a body: the node positions at which its cloth is in equilibrium.
 //
 // Unknown: the position of every garment node. Energy: membrane + bending + gravity + contact + lagged friction.
-// From flat: arrange the panels so that every limb lies inside its tube, weld, sew without gravity, then relax.
+// From flat: arrange the panels so that every limb lies inside its tube, weld, sew without gravity, then relax; a fine
+// mesh does so from where a coarse one came to rest.
 // From a given start (a transported or stored drape): relax only.
 // Where body, pattern and start are the same on the left and the right, so is the drape.
 // Source: design/sewing.md; [Eggler2024, Sec. 7].  SI units.
@@ -40,6 +41,9 @@ struct DrapeOptions {
   double shear_limit_deg = 12.0;                 // rho of the position-based solver, 0..45
   SelfContact self_contact = SelfContact::Auto;  // Off: cloth passes through cloth
   int first_rung = 0;  // of the retry ladder to begin with, 0 or 1: as designed, higher and firmer
+  // From flat, a finer mesh goes on from the drape of one of that many triangles, with its friction: of the many ways
+  // in which friction lets cloth rest, all meshes take the same one. 0, 500..200000; 0: every mesh from flat.
+  int coarse_triangles = 4000;
 };
 
 struct DrapeDiagnostics {

@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "engine/geometry/convex_hull.h"
 #include "engine/geometry/flat_locator.h"
 #include "engine/stage_options.h"
+#include "engine/stages/arrange_panels.h"
+#include "engine/stages/carry_drape.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/split_mesh.h"
 
 namespace toile::bench {
 namespace {
@@ -23,76 +28,46 @@ Points3 at_vertices(const PatternMesh& mesh, const Drape& drape) {
   return all;
 }
 
-// Mean stretch of the fine triangles whose middles lie in each coarse one, weighted by area.
-class CoarseStretch {
- public:
-  explicit CoarseStretch(const PatternMesh& coarse)
-      : coarse_(coarse), area_(Eigen::VectorXd::Zero(coarse.triangle_count())), weft_(area_), warp_(area_) {}
+constexpr int kSamples = 4;  // along each side of a coarse triangle
 
-  void add(const PatternMesh& fine, const FittingMap& fit) {
-    for (std::size_t p = 0; p < fine.panels.size(); ++p) {
-      const FlatLocator locator(coarse_.rest, panel_triangles(coarse_, p));
-      for (int f = fine.panels[p].triangle_begin; f < fine.panels[p].triangle_end; ++f) {
-        Vec2 middle = Vec2::Zero();
-        for (int k = 0; k < 3; ++k) middle += fine.rest.row(fine.triangles(f, k)).transpose() / 3.0;
-        const int in = coarse_.panels[p].triangle_begin + locator.closest(middle).triangle;
-        area_[in] += fit.rest_area[f];
-        weft_[in] += fit.rest_area[f] * fit.stretch_weft[f];
-        warp_[in] += fit.rest_area[f] * fit.stretch_warp[f];
+// Mean stretch of the fine cloth over each coarse triangle, #F.
+struct MeanStretch {
+  Eigen::VectorXd weft, warp;
+};
+
+MeanStretch mean_stretch(const PatternMesh& fine, const FittingMap& fit, const PatternMesh& coarse) {
+  MeanStretch mean{Eigen::VectorXd::Zero(coarse.triangle_count()), Eigen::VectorXd::Zero(coarse.triangle_count())};
+  for (std::size_t p = 0; p < coarse.panels.size(); ++p) {
+    const FlatLocator locator(fine.rest, panel_triangles(fine, p));
+    for (int f = coarse.panels[p].triangle_begin; f < coarse.panels[p].triangle_end; ++f) {
+      const Vec2 a = coarse.rest.row(coarse.triangles(f, 0)), b = coarse.rest.row(coarse.triangles(f, 1)),
+                 c = coarse.rest.row(coarse.triangles(f, 2));
+      for (int k = 0; k < kSamples * kSamples; ++k) {  // the middles of as many small triangles
+        const int row = static_cast<int>(std::sqrt(k)), column = k - row * row;
+        const double t = (row + (column % 2 ? 1.0 : 2.0) / 3) / kSamples,
+                     s = (column / 2 + (column % 2 ? 2.0 : 1.0) / 3) / kSamples;
+        const Vec2 at = a + (t - s) * (b - a) + s * (c - a);
+        const int there = fine.panels[p].triangle_begin + locator.closest(at).triangle;
+        mean.weft[f] += fit.stretch_weft[there] / (kSamples * kSamples);
+        mean.warp[f] += fit.stretch_warp[there] / (kSamples * kSamples);
       }
     }
   }
-  double rms_from(const FittingMap& fit) const {
-    double squares = 0.0, sum = 0.0;
-    for (int f = 0; f < coarse_.triangle_count(); ++f) {
-      if (!(area_[f] > 0)) continue;
-      const double weft = fit.stretch_weft[f] - weft_[f] / area_[f], warp = fit.stretch_warp[f] - warp_[f] / area_[f];
-      squares += 0.5 * fit.rest_area[f] * (weft * weft + warp * warp);
-      sum += fit.rest_area[f];
-    }
-    return std::sqrt(squares / sum);
-  }
-
- private:
-  const PatternMesh& coarse_;
-  Eigen::VectorXd area_, weft_, warp_;
-};
-
-Vec2 middle_of(const PatternMesh& mesh, int triangle) {
-  Vec2 middle = Vec2::Zero();
-  for (int k = 0; k < 3; ++k) middle += mesh.rest.row(mesh.triangles(triangle, k)).transpose() / 3.0;
-  return middle;
+  return mean;
 }
 
-// Value at the middle of `own` of the plane that fits the values of the triangles round about best.
-double plane_at(const PatternMesh& mesh, int own, const std::vector<int>& around, const Eigen::VectorXd& values) {
-  const Vec2 centre = middle_of(mesh, own);
-  Mat3 moments = Mat3::Zero();
-  Vec3 right = Vec3::Zero();
-  for (const int f : around) {
-    const Vec2 at = (middle_of(mesh, f) - centre) / mesh.target_edge_length;
-    const Vec3 row(1.0, at.x(), at.y());
-    moments += row * row.transpose();
-    right += values[f] * row;
-  }
-  return moments.ldlt().solve(right)[0];
+double rms_between(const MeanStretch& mean, const FittingMap& fit) {
+  const Eigen::ArrayXd squares =
+      0.5 * ((fit.stretch_weft - mean.weft).array().square() + (fit.stretch_warp - mean.warp).array().square());
+  return std::sqrt(fit.rest_area.dot(squares.matrix()) / fit.rest_area.sum());
 }
 
-// Stretch recovered from that of the triangles which share a corner: a plane through it. [ZienkiewiczZhu1992]
-FittingMap recovered(const PatternMesh& mesh, FittingMap fit) {
-  std::vector<std::vector<int>> at_vertex(static_cast<std::size_t>(mesh.vertex_count()));
-  for (int f = 0; f < mesh.triangle_count(); ++f)
-    for (int k = 0; k < 3; ++k) at_vertex[static_cast<std::size_t>(mesh.triangles(f, k))].push_back(f);
-  const Eigen::VectorXd weft = fit.stretch_weft, warp = fit.stretch_warp;
-  for (int f = 0; f < mesh.triangle_count(); ++f) {
-    std::vector<int> around;
-    for (int k = 0; k < 3; ++k)
-      for (const int g : at_vertex[static_cast<std::size_t>(mesh.triangles(f, k))]) around.push_back(g);
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
-    if (around.size() < 6) continue;
-    fit.stretch_weft[f] = plane_at(mesh, f, around, weft);
-    fit.stretch_warp[f] = plane_at(mesh, f, around, warp);
+// Each triangle's own, instead of that recovered from its neighbours'.
+FittingMap not_recovered(FittingMap fit) {
+  for (int f = 0; f < fit.triangle_count(); ++f) {
+    const Mat2& tensor = fit.tensor[static_cast<std::size_t>(f)];
+    fit.stretch_weft[f] = tensor(0, 0) - 1.0;
+    fit.stretch_warp[f] = tensor.col(1).norm() - 1.0;
   }
   return fit;
 }
@@ -148,40 +123,90 @@ SceneBodies read_scene(const test::Scene& scene) {
   return bodies;
 }
 
-Answer answer(const SceneBodies& scene, const Accuracy& accuracy) {
+namespace {
+
+DrapeOptions drape_options(const Accuracy& accuracy) {
   AlterOptions options;
   options.solver = accuracy.solver;
-  DrapeOptions drape_options = drape_options_of(options);
-  drape_options.stop_residual = accuracy.stop_residual;
-  drape_options.newton_residual = std::min(1e-3, 0.01 * accuracy.stop_residual);
-  Answer result;
-  const double start = cpu_seconds();
-  result.mesh = mesh_panels(scene.pattern, {.triangles = accuracy.triangles});
-  result.reference_drape = drape(scene.pattern, result.mesh, scene.reference, drape_options, nullptr).drape;
+  DrapeOptions drape = drape_options_of(options);
+  drape.stop_residual = accuracy.stop_residual;
+  drape.stop_settled = accuracy.stop_settled;
+  drape.coarse_triangles = accuracy.coarse_triangles;
+  drape.newton_residual = std::min(1e-3, 0.01 * accuracy.stop_residual);
+  return drape;
+}
+
+// Of the target pattern, from the reference drape.
+void derive(const SceneBodies& scene, const DrapeOptions& options, Answer& result) {
+  const AlterOptions usual;
+  result.hem_girth = hem_girth(scene.pattern, result.mesh, result.reference_drape);
   const FittingMap fit = build_fitting_map(result.mesh, result.reference_drape);
   const Drape carried =
       transport_garment(result.mesh, result.reference_drape, scene.reference, scene.target, scene.map).drape;
-  const auto plane = mirror_plane_of(options, scene.pattern);
+  const auto plane = mirror_plane_of(usual, scene.pattern);
   const auto mirrors =
       plane ? find_garment_mirrors(scene.pattern, result.mesh, result.reference_drape, *plane) : GarmentMirrors{};
   const DerivedPattern derived = derive_in_loop(scene.pattern, result.mesh, fit, scene.target, carried, mirrors,
-                                                derive_options_of(options), drape_options, loop_options_of(options));
+                                                derive_options_of(usual), options, loop_options_of(usual));
   result.target_drape = derived.drape.drape;
   result.target_rest = derived.mesh.rest;
+}
+
+}  // namespace
+
+Answer answer(const SceneBodies& scene, const Accuracy& accuracy) {
+  const DrapeOptions options = drape_options(accuracy);
+  Answer result;
+  const double start = cpu_seconds();
+  result.mesh = mesh_panels(scene.pattern, {.triangles = accuracy.triangles});
+  const DrapeResult worn = drape_to_hold(scene.pattern, result.mesh, scene.reference, options, result.held, nullptr);
+  result.reference_drape = worn.drape;
+  result.residual = worn.quality.residual;
+  derive(scene, options, result);
   result.cpu_s = cpu_seconds() - start;
   return result;
 }
 
+Answer refined(const SceneBodies& scene, const Answer& coarse, const Accuracy& accuracy) {
+  DrapeOptions options = drape_options(accuracy);
+  Answer result;
+  const double start = cpu_seconds();
+  result.mesh = split_mesh(coarse.mesh);
+  const DrapeEnd carried = carry_drape(scene.pattern, coarse.mesh, {coarse.reference_drape, coarse.held}, result.mesh);
+  result.held = carried.held;
+  const DrapeResult worn =
+      drape_held(scene.pattern, result.mesh, scene.reference, carried.drape, carried.held, options, nullptr);
+  result.reference_drape = worn.drape;
+  result.residual = worn.quality.residual;
+  derive(scene, options, result);
+  result.cpu_s = cpu_seconds() - start;
+  return result;
+}
+
+double hem_girth(const Pattern& pattern, const PatternMesh& mesh, const Drape& drape) {
+  double lowest = std::numeric_limits<double>::infinity(), girth = 0;
+  for (const std::vector<int>& line : free_lines(pattern, mesh)) {
+    std::vector<Vec2> flat;
+    double height = 0;
+    for (const int n : line) {
+      flat.emplace_back(drape.nodes(n, 0), drape.nodes(n, 2));
+      height += drape.nodes(n, 1) / static_cast<double>(line.size());
+    }
+    if (height < lowest) lowest = height, girth = hull_perimeter(flat);
+  }
+  return girth;
+}
+
 AnswerError compare(const Answer& fine, const Answer& coarse) {
   AnswerError error;
-  CoarseStretch stretch(coarse.mesh);
-  stretch.add(fine.mesh, build_fitting_map(fine.mesh, fine.reference_drape));
+  const MeanStretch mean = mean_stretch(fine.mesh, build_fitting_map(fine.mesh, fine.reference_drape), coarse.mesh);
   const FittingMap fit = build_fitting_map(coarse.mesh, coarse.reference_drape);
-  error.stretch = stretch.rms_from(fit);
-  error.recovered_stretch = stretch.rms_from(recovered(coarse.mesh, fit));
+  error.stretch = rms_between(mean, fit);
+  error.triangle_stretch = rms_between(mean, not_recovered(fit));
   error.position = position_error(fine, coarse);
   error.pattern = pattern_error(fine, coarse);
   error.hem = std::abs(fine.reference_drape.nodes.col(1).minCoeff() - coarse.reference_drape.nodes.col(1).minCoeff());
+  error.girth = std::abs(fine.hem_girth - coarse.hem_girth);
   return error;
 }
 

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pareto [SCENE...] [--sizes N,N,...] [--residuals R,R,...] [--newton] [--fine N] [--fine-residual R]
-// Run time against error of meshing, draping, transport and derivation together, over resolution x tolerance x solver;
-// the error is the distance to the same scene on a fine mesh with a tight residual. Rows on the front are marked: no
-// other of the scene is both cheaper and nearer in the pattern.
+// pareto [SCENE...] [--points N:R[:S],... | --sizes N,N,... --residuals R,R,...] [--newton] [--fine N]
+//        [--fine-residual R] [--held] [--flat]
+// Run time against error of meshing, draping, transport and derivation together, over triangles N x residual R x solver
+// (S: the residual at which a settled drape is left, the default's if not told). Errors are distances to
+//   the same scene on a fine mesh to a tight residual;
+//   held: the same rest state on the point's own triangles cut into four: its friction held, all to that residual;
+//   flat: the fine mesh draped from flat on its own, without the coarse drape that all resolutions begin with.
+// The first is the error a user has, held the part of it that the mesh makes, flat shows how far apart rest states can
+// lie that friction allows. Rows on the front are marked: no other of the scene is both cheaper and nearer in the
+// pattern.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -20,9 +26,9 @@ namespace {
 
 struct Request {
   std::vector<std::string> scenes;
-  std::vector<double> sizes = {1000, 2000, 4000, 10000}, residuals = {3.0, 1.0, 0.3, 0.1};
-  Accuracy fine{20000, 0.05, SolverKind::Default};
-  bool newton = false;
+  std::vector<Accuracy> points;
+  Accuracy fine{40000, 0.1, SolverKind::Default, 0.1};
+  bool held = false, flat = false;
 };
 
 std::vector<double> numbers(const std::vector<std::string>& texts) {
@@ -31,13 +37,41 @@ std::vector<double> numbers(const std::vector<std::string>& texts) {
   return found;
 }
 
+// N:R or N:R:S.
+Accuracy point_of(const std::string& text) {
+  Accuracy point;
+  char* at = nullptr;
+  point.triangles = static_cast<int>(std::strtol(text.c_str(), &at, 10));
+  if (*at == ':') point.stop_residual = std::strtod(at + 1, &at);
+  if (*at == ':') point.stop_settled = std::strtod(at + 1, &at);
+  if (*at != 0) throw Error(ErrorCode::OptionInvalid, "--points", "no N:R or N:R:S: " + text);
+  return point;
+}
+
+std::vector<Accuracy> points_of(Words& words) {
+  std::vector<Accuracy> points;
+  const auto named = words.list("--points"), sizes = words.list("--sizes"), residuals = words.list("--residuals");
+  const bool newton = words.flag("--newton");
+  if (named) {
+    for (const std::string& text : *named) points.push_back(point_of(text));
+    return points;
+  }
+  const std::vector<double> tried = residuals ? numbers(*residuals) : std::vector<double>{3.0, 1.0, 0.3, 0.1};
+  for (const double size : sizes ? numbers(*sizes) : std::vector<double>{1000, 2000, 4000, 10000}) {
+    for (const double residual : tried) points.push_back({static_cast<int>(size), residual});
+    if (newton) points.push_back({static_cast<int>(size), tried.back(), SolverKind::Newton});
+  }
+  return points;
+}
+
 Request parse(Words words) {
   Request request;
-  if (const auto sizes = words.list("--sizes")) request.sizes = numbers(*sizes);
-  if (const auto residuals = words.list("--residuals")) request.residuals = numbers(*residuals);
+  request.points = points_of(words);
   request.fine.triangles = words.integer("--fine").value_or(request.fine.triangles);
   request.fine.stop_residual = words.number("--fine-residual").value_or(request.fine.stop_residual);
-  request.newton = words.flag("--newton");
+  request.fine.stop_settled = request.fine.stop_residual;
+  request.held = words.flag("--held");
+  request.flat = words.flag("--flat");
   request.scenes = words.rest();
   if (request.scenes.empty()) request.scenes = {"leggings_tight", "tshirt_fitted", "dress_sleeveless", "skirt_pencil"};
   return request;
@@ -46,42 +80,55 @@ Request parse(Words words) {
 struct Point {
   std::string scene;
   Accuracy accuracy;
-  int triangles = 0;
+  Answer found;
   double cpu_s = 0.0;
   AnswerError error;
+  std::optional<AnswerError> held, flat;
 };
-
-std::vector<Accuracy> accuracies(const Request& request) {
-  std::vector<Accuracy> all;
-  for (const double size : request.sizes) {
-    for (const double residual : request.residuals) all.push_back({static_cast<int>(size), residual});
-    if (request.newton) all.push_back({static_cast<int>(size), request.residuals.back(), SolverKind::Newton});
-  }
-  return all;
-}
 
 std::string name_of(const Accuracy& accuracy) {
   return accuracy.solver == SolverKind::Newton ? "Newton" : "residual " + fixed(accuracy.stop_residual, 2);
 }
 
+Answer reference(const char* what, const std::string& name, const SceneBodies& scene, const Accuracy& accuracy) {
+  Answer fine = answer(scene, accuracy);
+  std::printf("%s: %s of %d triangles, residual %.2f, took %.1f CPU s\n", name.c_str(), what,
+              fine.mesh.triangle_count(), fine.residual, fine.cpu_s);
+  std::fflush(stdout);
+  return fine;
+}
+
+Point run_point(const Request& request, const SceneBodies& scene, Point point, int repeats) {
+  std::vector<double> times;
+  for (int i = 0; i < repeats; ++i) {
+    Answer found = answer(scene, point.accuracy);
+    times.push_back(found.cpu_s);
+    if (i + 1 == repeats) point.found = std::move(found);
+  }
+  std::sort(times.begin(), times.end());
+  point.cpu_s = times[times.size() / 2];
+  if (request.held) {
+    const Answer finer = refined(scene, point.found, request.fine);
+    point.held = compare(finer, point.found);
+    std::printf("%s: %d triangles cut into four, residual %.2f, took %.1f CPU s\n", point.scene.c_str(),
+                point.found.mesh.triangle_count(), finer.residual, finer.cpu_s);
+    std::fflush(stdout);
+  }
+  return point;
+}
+
 std::vector<Point> run_scene(const Request& request, const std::string& name, int repeats) {
   const SceneBodies scene = read_scene(test::named_scene(name));
-  const Answer fine = answer(scene, request.fine);
-  std::printf("%s: reference of %d triangles took %.1f CPU s\n", name.c_str(), fine.mesh.triangle_count(), fine.cpu_s);
-  std::fflush(stdout);
   std::vector<Point> points;
-  for (const Accuracy& accuracy : accuracies(request)) {
-    std::vector<double> times;
-    Point point{name, accuracy, 0, 0.0, {}};
-    for (int i = 0; i < repeats; ++i) {
-      const Answer coarse = answer(scene, accuracy);
-      times.push_back(coarse.cpu_s);
-      if (i == 0) point.error = compare(fine, coarse), point.triangles = coarse.mesh.triangle_count();
-    }
-    std::sort(times.begin(), times.end());
-    point.cpu_s = times[times.size() / 2];
-    points.push_back(point);
-  }
+  for (const Accuracy& accuracy : request.points)
+    points.push_back(run_point(request, scene, {name, accuracy, {}, 0.0, {}, {}, {}}, repeats));
+  const Answer fine = reference("reference", name, scene, request.fine);
+  for (Point& point : points) point.error = compare(fine, point.found);
+  if (!request.flat) return points;
+  Accuracy alone = request.fine;
+  alone.coarse_triangles = 0;
+  const Answer flat = reference("reference from flat", name, scene, alone);
+  for (Point& point : points) point.flat = compare(flat, point.found);
   return points;
 }
 
@@ -95,7 +142,7 @@ Plot plot_of(const std::vector<Point>& points) {
   Plot plot{"Run time against error of the derived pattern", "CPU s", "rms error of the outlines, mm", true, true, {}};
   std::map<std::string, Curve> curves;
   for (const Point& point : points) {
-    Curve& curve = curves[point.scene + ", " + name_of(point.accuracy)];
+    Curve& curve = curves[point.scene + (point.accuracy.solver == SolverKind::Newton ? ", Newton" : "")];
     curve.x.push_back(point.cpu_s);
     curve.y.push_back(point.error.pattern * kMmPerMetre);
     curve.labels.push_back(std::to_string(point.accuracy.triangles / 1000) + "k");
@@ -105,6 +152,16 @@ Plot plot_of(const std::vector<Point>& points) {
     plot.curves.push_back(curve);
   }
   return plot;
+}
+
+void add_error(const std::optional<AnswerError>& error, std::vector<std::string>& row) {
+  if (!error) {
+    row.insert(row.end(), 6, "-");
+    return;
+  }
+  for (const double share : {error->stretch, error->triangle_stretch}) row.push_back(fixed(100 * share, 2));
+  for (const double length : {error->position, error->hem, error->girth, error->pattern})
+    row.push_back(fixed(length * kMmPerMetre, 2));
 }
 
 }  // namespace
@@ -120,13 +177,37 @@ int bench_pareto(const Arguments& arguments) {
       std::printf("%s: %s\n", scene.c_str(), error.what());
     }
   }
-  Table table({"scene", "triangles", "solver", "CPU s", "stretch %", "recovered %", "position mm", "hem mm",
-               "pattern mm", "front"});
-  for (const Point& point : points)
-    table.add({point.scene, std::to_string(point.triangles), name_of(point.accuracy), fixed(point.cpu_s, 2),
-               fixed(100 * point.error.stretch, 2), fixed(100 * point.error.recovered_stretch, 2),
-               fixed(point.error.position * kMmPerMetre, 2), fixed(point.error.hem * kMmPerMetre, 2),
-               fixed(point.error.pattern * kMmPerMetre, 2), on_front(point, points) ? "*" : ""});
+  Table table({"scene",
+               "triangles",
+               "solver",
+               "CPU s",
+               "stretch %",
+               "triangles' %",
+               "position mm",
+               "hem mm",
+               "girth mm",
+               "pattern mm",
+               "held stretch %",
+               "held triangles' %",
+               "held position mm",
+               "held hem mm",
+               "held girth mm",
+               "held pattern mm",
+               "flat stretch %",
+               "flat triangles' %",
+               "flat position mm",
+               "flat hem mm",
+               "flat girth mm",
+               "flat pattern mm",
+               "front"});
+  for (const Point& point : points) {
+    std::vector<std::string> row{point.scene, std::to_string(point.found.mesh.triangle_count()),
+                                 name_of(point.accuracy), fixed(point.cpu_s, 2)};
+    for (const std::optional<AnswerError>& error : {std::optional(point.error), point.held, point.flat})
+      add_error(error, row);
+    row.push_back(on_front(point, points) ? "*" : "");
+    table.add(row);
+  }
   table.print(arguments.csv);
   if (!arguments.svg.empty()) write_plot(plot_of(points), arguments.svg);
   return 0;

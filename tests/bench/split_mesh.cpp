@@ -13,8 +13,8 @@ class Splitter {
  public:
   explicit Splitter(const PatternMesh& coarse) : coarse_(coarse) {}
 
-  SplitMesh run() {
-    PatternMesh& fine = result_.mesh;
+  PatternMesh run() {
+    PatternMesh& fine = result_;
     fine.panel_reversed = coarse_.panel_reversed;
     fine.target_edge_length = 0.5 * coarse_.target_edge_length;
     fine.triangles.resize(4 * coarse_.triangles.rows(), 3);
@@ -37,12 +37,12 @@ class Splitter {
     }
     for (int f = range.triangle_begin; f < range.triangle_end; ++f) split_triangle(f);
     const int vertices = static_cast<int>(rest_.size());
-    result_.mesh.panels.push_back({first, vertices, 4 * range.triangle_begin, 4 * range.triangle_end});
-    result_.mesh.panel_of_vertex.resize(static_cast<std::size_t>(vertices), static_cast<int>(p));
-    result_.mesh.panel_of_triangle.resize(4 * static_cast<std::size_t>(range.triangle_end), static_cast<int>(p));
-    result_.mesh.edge_vertices.emplace_back();
+    result_.panels.push_back({first, vertices, 4 * range.triangle_begin, 4 * range.triangle_end});
+    result_.panel_of_vertex.resize(static_cast<std::size_t>(vertices), static_cast<int>(p));
+    result_.panel_of_triangle.resize(4 * static_cast<std::size_t>(range.triangle_end), static_cast<int>(p));
+    result_.edge_vertices.emplace_back();
     for (const std::vector<int>& edge : coarse_.edge_vertices[p])
-      result_.mesh.edge_vertices.back().push_back(with_middles(edge));
+      result_.edge_vertices.back().push_back(with_middles(edge));
   }
 
   void split_triangle(int f) {
@@ -51,7 +51,7 @@ class Splitter {
       corner[k] = number_[static_cast<std::size_t>(coarse_.triangles(f, k))];
       middle[k] = middle_of(coarse_.triangles(f, k), coarse_.triangles(f, (k + 1) % 3));
     }
-    Triangles& fine = result_.mesh.triangles;
+    Triangles& fine = result_.triangles;
     for (int k = 0; k < 3; ++k) fine.row(4 * f + k) << corner[k], middle[k], middle[(k + 2) % 3];
     fine.row(4 * f + 3) << middle[0], middle[1], middle[2];
   }
@@ -62,10 +62,7 @@ class Splitter {
     return at->second;
   }
 
-  void add_vertex(int a, int b) {
-    rest_.push_back(0.5 * (coarse_.rest.row(a) + coarse_.rest.row(b)).transpose());
-    ends_.emplace_back(a, b);
-  }
+  void add_vertex(int a, int b) { rest_.push_back(0.5 * (coarse_.rest.row(a) + coarse_.rest.row(b)).transpose()); }
 
   std::vector<int> with_middles(const std::vector<int>& edge) const {
     std::vector<int> all;
@@ -78,7 +75,7 @@ class Splitter {
 
   // Kept nodes meet as before, middles where a seam runs through both.
   void sew() {
-    PatternMesh& fine = result_.mesh;
+    PatternMesh& fine = result_;
     DisjointSets sewn(static_cast<int>(rest_.size()));
     for (const auto& pairs : coarse_.seam_vertices) {
       auto& split = fine.seam_vertices.emplace_back();
@@ -92,24 +89,18 @@ class Splitter {
       for (const auto& [a, b] : split) sewn.join(a, b);
     }
     std::tie(fine.node_of_vertex, fine.node_count) = sewn.numbering();
-    result_.between.resize(static_cast<std::size_t>(fine.node_count));
-    for (std::size_t v = 0; v < ends_.size(); ++v)
-      result_.between[static_cast<std::size_t>(fine.node_of_vertex[v])] = {node(ends_[v].first), node(ends_[v].second)};
   }
 
-  int node(int coarse_vertex) const { return coarse_.node_of_vertex[static_cast<std::size_t>(coarse_vertex)]; }
-
   const PatternMesh& coarse_;
-  SplitMesh result_;
+  PatternMesh result_;
   std::vector<Vec2> rest_;
-  std::vector<std::pair<int, int>> ends_;  // per new vertex: the old ones it lies half-way between
-  std::vector<int> number_;                // new, per old vertex
+  std::vector<int> number_;  // new, per old vertex
   std::map<std::pair<int, int>, int> middle_;
 };
 
 }  // namespace
 
-SplitMesh split_mesh(const PatternMesh& coarse) {
+PatternMesh split_mesh(const PatternMesh& coarse) {
   return Splitter(coarse).run();
 }
 

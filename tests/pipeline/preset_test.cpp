@@ -23,6 +23,8 @@ TEST(Preset, ErrorIsToldOnlyWhereItWasMeasured) {
   AlterOptions options = preset(Preset::Standard);
   ASSERT_TRUE(measured_error(options));
   EXPECT_LT(measured_error(options)->stretch, measured_error(preset(Preset::Draft))->stretch);
+  ASSERT_TRUE(measured_error(preset(Preset::Fine)));
+  EXPECT_LT(measured_error(preset(Preset::Fine))->stretch, measured_error(options)->stretch);
   options.triangles = 3000;
   EXPECT_FALSE(measured_error(options));
 }

@@ -103,10 +103,11 @@ void check_not_silent(const json& told, const DrapeResult& drape, const std::str
 
 void check_derivation(const json& stages, const DerivedGarment& derived, Outcome& outcome) {
   const json& told = stages.at("derive_pattern");
-  const Strains wanted =
-                    strains(derived.reference.mesh, derived.reference.mesh.rest, derived.reference.drape.drape.nodes),
-                reached = strains(derived.derived.mesh, derived.derived.mesh.rest, derived.derived.drape.drape.nodes);
-  Strains compared = reached;
+  const auto shown = [](const PatternMesh& mesh, const Drape& drape) {
+    return recovered(mesh, mesh.rest, strains(mesh, mesh.rest, drape.nodes));
+  };
+  const Strains wanted = shown(derived.reference.mesh, derived.reference.drape.drape);
+  Strains compared = shown(derived.derived.mesh, derived.derived.drape.drape);
   compared.area = wanted.area;
   const bool degenerate =
       std::count(derived.derived.fit.degenerate.begin(), derived.derived.fit.degenerate.end(), true) +

@@ -3,7 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
+
+#include <Eigen/QR>
 
 namespace toile::stress {
 namespace {
@@ -73,6 +77,51 @@ Strains strains(const PatternMesh& mesh, const Points2& rest, const Points3& nod
     all.weft.push_back(along_u.norm() / std::abs(twice_area) - 1.0);
     all.warp.push_back(along_v.norm() / std::abs(twice_area) - 1.0);
     all.area.push_back(0.5 * std::abs(twice_area));
+  }
+  return all;
+}
+
+Strains recovered(const PatternMesh& mesh, const Points2& rest, const Strains& own) {
+  constexpr double kLevel = 1e-3;  // against slopes, of the root of the patch's area: where it is one line of triangles
+  std::multimap<int, int> round;   // triangles at a vertex
+  std::vector<Vec2> middle;
+  for (int f = 0; f < mesh.triangle_count(); ++f) {
+    middle.emplace_back(Vec2::Zero());
+    for (int k = 0; k < 3; ++k) {
+      round.emplace(mesh.triangles(f, k), f);
+      middle.back() += rest.row(mesh.triangles(f, k)).transpose() / 3;
+    }
+  }
+  Strains all = own;
+  for (int f = 0; f < mesh.triangle_count(); ++f) {
+    std::set<int> patch;
+    for (int k = 0; k < 3; ++k)
+      for (auto [at, end] = round.equal_range(mesh.triangles(f, k)); at != end; ++at) patch.insert(at->second);
+    if (patch.size() < 6) continue;
+    const auto count = static_cast<Eigen::Index>(patch.size());
+    double area = 0;
+    for (const int g : patch) area += own.area[static_cast<std::size_t>(g)];
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(count + 2, 3), values = Eigen::MatrixXd::Zero(count + 2, 2);
+    rows(count, 1) = rows(count + 1, 2) = kLevel * std::sqrt(area);
+    Eigen::Index i = 0;
+    for (const int g : patch) {
+      const auto at = static_cast<std::size_t>(g);
+      const Vec2 offset = (middle[at] - middle[static_cast<std::size_t>(f)]) / std::sqrt(area);
+      const double weight = std::sqrt(own.area[at]);
+      rows.row(i) << weight, weight * offset.x(), weight * offset.y();
+      values.row(i++) << weight * own.weft[at], weight * own.warp[at];
+    }
+    const Eigen::RowVector2d plane = rows.colPivHouseholderQr().solve(values).row(0);
+    const auto within = [&](double value, const std::vector<double>& of) {
+      double least = of[static_cast<std::size_t>(f)], most = least;
+      for (const int g : patch) {
+        least = std::min(least, of[static_cast<std::size_t>(g)]);
+        most = std::max(most, of[static_cast<std::size_t>(g)]);
+      }
+      return std::clamp(value, least, most);
+    };
+    all.weft[static_cast<std::size_t>(f)] = within(plane[0], own.weft);
+    all.warp[static_cast<std::size_t>(f)] = within(plane[1], own.warp);
   }
   return all;
 }

@@ -15,6 +15,10 @@ struct Strains {
 };
 Strains strains(const PatternMesh& mesh, const Points2& rest, const Points3& nodes);
 
+// The same as the fitting map shows them: at each middle the value of the plane through those of the triangles of the
+// panel that share a corner, weighted by area, within their range; own ones where fewer than six share one.
+Strains recovered(const PatternMesh& mesh, const Points2& rest, const Strains& own);
+
 // Share of the area whose magnitude is at most `limit`.
 double share_within(const std::vector<double>& values, const std::vector<double>& area, double limit);
 // Area-weighted root mean square of both strains' differences.

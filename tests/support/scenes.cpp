@@ -17,11 +17,12 @@ struct SharedScene {
   bool fitted;
 };
 // The two bodies of a scene are of one family, so that nothing is registered; but for the scan.
-constexpr std::array<SharedScene, 6> kShared = {{{"leggings_tight", "leggings_tight", "ggg_large_male", true},
+constexpr std::array<SharedScene, 7> kShared = {{{"leggings_tight", "leggings_tight", "ggg_large_male", true},
                                                  {"tshirt_fitted", "tshirt_fitted", "ggg_large_male", true},
                                                  {"dress_sleeveless", "dress_sleeveless", "ggg_small_female", true},
                                                  {"skirt_pencil", "skirt_pencil", "ggg_mean_female", true},
                                                  {"skirt_circle", "skirt_circle", "ggg_mean_female", false},
+                                                 {"dress_loose", "dress_loose", "ggg_mean_female", false},
                                                  {"leggings_scan", "leggings_tight", "scan_b", false}}};
 
 struct ShippedScene {

@@ -17,8 +17,8 @@ struct Scene {
 };
 
 // Names that stand for themselves: the shipped "tube_skirt", "leggings", "dress", ... need nothing beside the checkout;
-// "leggings_tight", "tshirt_fitted", "dress_sleeveless", "skirt_pencil" (the fitted scenes), "skirt_circle" and
-// "leggings_scan" need ../shared/data.
+// "leggings_tight", "tshirt_fitted", "dress_sleeveless", "skirt_pencil" (the fitted scenes), "skirt_circle",
+// "dress_loose" and "leggings_scan" need ../shared/data.
 std::vector<std::string> scene_names();
 
 // One of those, or GARMENT:BODY with names of ../shared/data. Throws Error{NotFound}.

@@ -71,6 +71,42 @@ TEST(BuildFittingMap, AgainstAnotherRestShapeMeasuresTheDifferenceOfTheTwo) {
   EXPECT_NEAR(build_fitting_map(garment.mesh, wider, drape).stretch_weft.mean(), 0.0, 1e-4);
 }
 
+// Stretch that grows along the weft: that of a triangle is off to one side or the other by how it stands.
+TEST(BuildFittingMap, StretchThatVariesIsRecoveredFromNeighbours) {
+  const GridGarment garment = grid_garment({{"front", 0.4, 0.6, 16, 24, 0.3}, {"back", 0.4, 0.6, 16, 24, 0.0}});
+  Drape drape;
+  drape.nodes.resize(garment.mesh.node_count, 3);
+  for (int v = 0; v < garment.mesh.vertex_count(); ++v) {
+    const double s = garment.mesh.rest(v, 0);
+    drape.nodes.row(garment.mesh.node_of_vertex[static_cast<std::size_t>(v)]) << s + 0.5 * s * s,
+        garment.mesh.rest(v, 1), 0;
+  }
+  const FittingMap map = build_fitting_map(garment.mesh, drape);
+  double own = 0, recovered = 0;
+  for (int f = 0; f < map.triangle_count(); ++f) {
+    const double s =
+        (garment.mesh.rest(garment.mesh.triangles(f, 0), 0) + garment.mesh.rest(garment.mesh.triangles(f, 1), 0) +
+         garment.mesh.rest(garment.mesh.triangles(f, 2), 0)) /
+        3;
+    own += map.rest_area[f] * std::pow(map.tensor[static_cast<std::size_t>(f)](0, 0) - 1 - s, 2);
+    recovered += map.rest_area[f] * std::pow(map.stretch_weft[f] - s, 2);
+  }
+  EXPECT_GT(std::sqrt(own / map.rest_area.sum()), 0.003);
+  EXPECT_LT(std::sqrt(recovered), 0.4 * std::sqrt(own));
+}
+
+TEST(BuildFittingMap, EvenStretchIsRecoveredExactly) {
+  const GridGarment garment = grid_garment({{"front", 0.4, 0.6, 8, 12, 0.2}});
+  Drape drape;
+  drape.nodes.resize(garment.mesh.node_count, 3);
+  for (int v = 0; v < garment.mesh.vertex_count(); ++v)
+    drape.nodes.row(garment.mesh.node_of_vertex[static_cast<std::size_t>(v)]) << 1.07 * garment.mesh.rest(v, 0),
+        0.96 * garment.mesh.rest(v, 1), 0;
+  const FittingMap map = build_fitting_map(garment.mesh, drape);
+  EXPECT_LT((map.stretch_weft.array() - 0.07).abs().maxCoeff(), kRounding);
+  EXPECT_LT((map.stretch_warp.array() + 0.04).abs().maxCoeff(), kRounding);
+}
+
 TEST(BuildFittingMap, RefusesAnInvertedFlatTriangle) {
   const GridGarment garment = grid_garment({{"front", 0.4, 0.6, 4, 6, 0.0}});
   const Points2 mirrored = garment.mapped([](int, const Vec2& p) { return Vec2(-p.x(), p.y()); });

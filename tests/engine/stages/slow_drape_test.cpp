@@ -129,6 +129,22 @@ TEST(SlowDrape, GoesOnFromItsEndWhereFrictionIsHeld) {
   EXPECT_THROW(drape_held(d.pattern, d.mesh, d.body, first, end, d.options, nullptr), Error);
 }
 
+// Friction lets the dress rest up to a centimetre higher or lower; all meshes take the same of these states.
+TEST(SlowDrape, FinerMeshRestsWhereTheCoarseOneDoes) {
+  TOILE_REQUIRE_SHARED_DATA();
+  const auto lowest = [](int triangles, int coarse_triangles) {
+    test::Dressing d = test::dress("dress_sleeveless", triangles);
+    d.options.coarse_triangles = coarse_triangles;
+    const DrapeResult result = drape(d.pattern, d.mesh, d.body, d.options, nullptr);
+    expect_worn(result);
+    return result.drape.nodes.col(1).minCoeff();
+  };
+  const int usual = DrapeOptions().coarse_triangles;
+  const double coarse = lowest(usual, usual);
+  EXPECT_GT(std::abs(lowest(10000, 0) - coarse), 0.004);  // from flat on its own
+  EXPECT_LT(std::abs(lowest(10000, usual) - coarse), 0.001);
+}
+
 TEST(SlowDrape, SameInputsGiveTheSameBytes) {
   TOILE_REQUIRE_SHARED_DATA();
   const test::Dressing d = test::dress("skirt_pencil", 2000);
