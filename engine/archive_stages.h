@@ -34,10 +34,10 @@ template <class A>
 void archive(A& a, DrapeOptions& v) {
   auto& [friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, stop_settled, lift,
          drafted_for, pin_openings, keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, self_contact,
-         first_rung, coarse_triangles] = v;
+         first_rung, coarse_triangles, halve] = v;
   a(friction, gravity, thickness, sag_radius, contact_stiffness, iterations, stop_residual, stop_settled, lift,
     drafted_for, pin_openings, keep_drape, solver, newton_residual, fibre_slack, shear_limit_deg, self_contact,
-    first_rung, coarse_triangles);
+    first_rung, coarse_triangles, halve);
 }
 template <class A>
 void archive(A& a, DrapeFinding& v) {
@@ -46,9 +46,10 @@ void archive(A& a, DrapeFinding& v) {
 }
 template <class A>
 void archive(A& a, DrapeDiagnostics& v) {
-  auto& [upper_shift, bodice, hold_height, sewing_iterations, iterations, evaluations, energy, stalled, rung,
-         findings] = v;
-  a(upper_shift, bodice, hold_height, sewing_iterations, iterations, evaluations, energy, stalled, rung, findings);
+  auto& [upper_shift, bodice, hold_height, moved_nodes, sewing_iterations, iterations, evaluations, energy, stalled,
+         rung, findings] = v;
+  a(upper_shift, bodice, hold_height, moved_nodes, sewing_iterations, iterations, evaluations, energy, stalled, rung,
+    findings);
 }
 template <class A>
 void archive(A& a, StrainPercentiles& v) {

@@ -27,7 +27,7 @@ Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>&
     if (auto given = read_garment_mesh(garment)) return std::move(*given);
     return mesh_panels(pattern.value, mesh_options, runner.progress());
   });
-  const auto worn = runner.run("drape", 22, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
+  const auto worn = runner.run("drape", 23, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
     const auto given = read_garment_drape(garment, wearer.value);
     if (!given) return drape(pattern.value, mesh.value, wearer.value, drape_options, runner.progress());
     DrapeOptions from_given = drape_options;
@@ -102,14 +102,14 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
       [&](StageRunner& part) -> std::optional<DrapeResult> {
         if (!wants_before(options)) return part.skip("drape_before"), std::nullopt;
         return part
-            .run("drape_before", 20, key_of(transported.key, drape_options),
+            .run("drape_before", 21, key_of(transported.key, drape_options),
                  [&] {
                    return drape_from(pattern, mesh, target, transported.value.drape, drape_options, part.progress());
                  })
             .value;
       },
       [&](StageRunner& part) {
-        return part.run("derive_pattern", 25, key_of(transported.key, derive_options, loop_options, plane), [&] {
+        return part.run("derive_pattern", 26, key_of(transported.key, derive_options, loop_options, plane), [&] {
           const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
           return derive_in_loop(pattern, mesh, fit, target, transported.value.drape, mirrors, derive_options,
                                 drape_options, loop_options, part.progress());
@@ -136,7 +136,7 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
     return {std::move(ideal.value), altered.value, {}};
   }
   const DrapeOptions drape_options = drape_options_of(options);
-  const auto after = runner.run("drape_altered", 19, key_of(altered.key, ideal.key, drape_options), [&] {
+  const auto after = runner.run("drape_altered", 20, key_of(altered.key, ideal.key, drape_options), [&] {
     return drape_altered(altered.value.sewn, mesh, fit, ideal.value.derived, ideal.value.target_body, drape_options,
                          runner.progress());
   });

@@ -63,20 +63,35 @@ CholmodFactor::~CholmodFactor() {
   cholmod_finish(common());
 }
 
-bool CholmodFactor::same_pattern(const SparseMatrix& matrix) const {
-  return factor_ && outer_.size() == matrix.outerSize() + 1 && inner_.size() == matrix.nonZeros() &&
+bool CholmodFactor::same_pattern(const SparseMatrix& matrix, const std::vector<int>& last) const {
+  return factor_ && last == last_ && outer_.size() == matrix.outerSize() + 1 && inner_.size() == matrix.nonZeros() &&
          same(outer_, matrix.outerIndexPtr()) && same(inner_, matrix.innerIndexPtr());
 }
 
-bool CholmodFactor::compute(const SparseMatrix& matrix) {
+void CholmodFactor::analyse(const SparseMatrix& matrix, const std::vector<int>& last) {
+  cholmod_sparse view = view_of(matrix);
+  cholmod_free_factor(&factor_, common());
+  if (last.empty()) {
+    common_->method[0].ordering = CHOLMOD_AMD;
+    factor_ = cholmod_analyze(&view, common());
+  } else {
+    std::vector<int> late(static_cast<std::size_t>(matrix.rows()), 0), order(late.size());
+    for (const int i : last) late[static_cast<std::size_t>(i)] = 1;
+    common_->method[0].ordering = CHOLMOD_GIVEN;
+    if (cholmod_camd(&view, nullptr, 0, late.data(), order.data(), common()))
+      factor_ = cholmod_analyze_p(&view, order.data(), nullptr, 0, common());
+  }
+}
+
+bool CholmodFactor::compute(const SparseMatrix& matrix, const std::vector<int>& last) {
   assert(matrix.rows() == matrix.cols() && matrix.isCompressed());
   if (!Eigen::Map<const Eigen::VectorXd>(matrix.valuePtr(), matrix.nonZeros()).allFinite()) return false;
   use_no_openmp_threads();
   cholmod_sparse view = view_of(matrix);
-  if (!same_pattern(matrix)) {
-    cholmod_free_factor(&factor_, common());
-    factor_ = cholmod_analyze(&view, common());
+  if (!same_pattern(matrix, last)) {
+    analyse(matrix, last);
     if (!factor_) return false;
+    last_ = last;
     outer_ = Eigen::Map<const Eigen::VectorXi>(matrix.outerIndexPtr(), matrix.outerSize() + 1);
     inner_ = Eigen::Map<const Eigen::VectorXi>(matrix.innerIndexPtr(), matrix.nonZeros());
   }

@@ -22,6 +22,7 @@ struct RowSolver::State {
   std::vector<BlockFactor::Rows> rows;            // of L, below the diagonal
   BlockFactor lower;
   std::vector<double> inverse_diagonal;
+  std::vector<int> held_places;  // ascending; every row that depends on one of them is held
   std::vector<FactorRow> work;
 
   int row_count() const { return static_cast<int>(permutation.size()); }
@@ -31,6 +32,7 @@ struct RowSolver::State {
   void lay_out();
   void take_in(const Points3& right, int from, int to);
   void give_back(int from, int to, Points3& solution) const;
+  void find_places(const std::vector<int>& held);
   void scale(int from, int to);
 };
 
@@ -79,6 +81,13 @@ bool RowSolver::State::copy_factor() {
   return true;
 }
 
+void RowSolver::State::find_places(const std::vector<int>& held) {
+  held_places.clear();
+  for (int j = 0; j < row_count(); ++j)
+    if (std::binary_search(held.begin(), held.end(), permutation[static_cast<std::size_t>(j)]))
+      held_places.push_back(j);
+}
+
 void RowSolver::State::take_in(const Points3& right, int from, int to) {
   for (auto j = static_cast<std::size_t>(from); j < static_cast<std::size_t>(to); ++j) {
     const double* b = right.data() + 3 * static_cast<std::ptrdiff_t>(permutation[j]);
@@ -95,6 +104,8 @@ void RowSolver::State::give_back(int from, int to, Points3& solution) const {
 
 void RowSolver::State::scale(int from, int to) {
   for (auto j = static_cast<std::size_t>(from); j < static_cast<std::size_t>(to); ++j) work[j] *= inverse_diagonal[j];
+  for (const int j : held_places)
+    if (j >= from && j < to) work[static_cast<std::size_t>(j)][0] = 0;
 }
 
 RowSolver::RowSolver() : state_(std::make_unique<State>()) {}
@@ -102,8 +113,10 @@ RowSolver::~RowSolver() = default;
 RowSolver::RowSolver(RowSolver&&) noexcept = default;
 RowSolver& RowSolver::operator=(RowSolver&&) noexcept = default;
 
-bool RowSolver::factor(const SparseMatrix& matrix) {
-  return state_->cholesky.compute(matrix) && state_->copy_factor();
+bool RowSolver::factor(const SparseMatrix& matrix, const std::vector<int>& held) {
+  if (!state_->cholesky.compute(matrix, held) || !state_->copy_factor()) return false;
+  state_->find_places(held);
+  return true;
 }
 
 void RowSolver::solve(const Points3& right, Points3& solution, Helper* helper) {

@@ -22,7 +22,8 @@ class RowSolver {
 
   // Factors `matrix`, of which only the lower triangle is read; the analysis is kept while the pattern stays the same.
   // False if it is not positive definite or not finite: the solver is then unusable.
-  [[nodiscard]] bool factor(const SparseMatrix& matrix);
+  // `held` (ascending): rows whose first coordinate is 0 in every solution, as if the matrix did not have them there.
+  [[nodiscard]] bool factor(const SparseMatrix& matrix, const std::vector<int>& held = {});
 
   // solution = A^-1 right, both #N x 3. Requires a successful factor(). No allocation.
   void solve(const Points3& right, Points3& solution, Helper* helper = nullptr);

@@ -74,8 +74,17 @@ double mean_edge_length(const PatternMesh& mesh) {
 
 }  // namespace
 
+int Cloth::whole_node_count() const {
+  return half ? 2 * node_count - static_cast<int>(middle.size()) : node_count;
+}
+
 double Cloth::mean_node_weight() const {
-  return node_count > 0 ? fabric.density * kGravity * node_area.sum() / node_count : 0.0;
+  const double area = (half ? 2 : 1) * node_area.sum();
+  return node_count > 0 ? fabric.density * kGravity * area / whole_node_count() : 0.0;
+}
+
+void Cloth::hold_middle(Points3& rows) const {
+  for (const int i : middle) rows(i, 0) = 0;
 }
 
 Cloth make_cloth(const Pattern& pattern, const PatternMesh& mesh) {

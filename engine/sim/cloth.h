@@ -28,7 +28,14 @@ struct Cloth {
   SparseMatrix bending;       // #N x #N, symmetric, positive semidefinite: energy x^T Q x / 2 per coordinate, N/m
   double mean_edge = 0.0;     // h, mean rest edge length, m
 
-  double mean_node_weight() const;  // N; what residuals are measured by, whatever gravity is
+  // Of one half of a symmetric garment (half_cloth.h), cut along x = 0; else there is no middle.
+  bool half = false;
+  std::vector<int> middle;      // nodes on the cut: their x is 0, their areas and bending are those of one side
+  SparseMatrix bending_across;  // #N x #N, added to `bending` for x alone
+
+  int whole_node_count() const;           // of both halves
+  double mean_node_weight() const;        // N; what residuals are measured by, whatever gravity is
+  void hold_middle(Points3& rows) const;  // x = 0 there
 };
 
 // The cloth of a pattern. Triangles whose nodes coincide are left out; hinges across `right_wrong` seams do not bend.

@@ -43,12 +43,61 @@ ClothContact::ClothContact(const Cloth& cloth, const PatternMesh& mesh, const Cl
       features_(mesh),
       rest_centre_(features_.centres()),
       patches_(features_.triangles, rest_centre_, features_.panel),
+      vertex_share_(static_cast<std::size_t>(cloth.node_count), 1.0),
+      edge_share_(features_.edges.size(), 1.0),
       reach_(kMostReach * cloth.mean_edge),
       marked_(static_cast<std::size_t>(cloth.node_count), false),
       swelling_(Points3::Zero(cloth.node_count, 3)) {
   boxes_.resize(static_cast<std::size_t>(features_.triangle_count()));
   centre_.setZero(features_.triangle_count(), 3);
   normal_.setZero(features_.triangle_count(), 3);
+  if (options.half) leave_out_other_half();
+}
+
+void ClothContact::leave_out_other_half() {
+  const std::vector<int>& side = options_.half->side;
+  const auto share = [](int least, int most) { return least == 0 && most == 0 ? 0.5 : least < 0 ? 0.0 : 1.0; };
+  for (std::size_t n = 0; n < side.size(); ++n) vertex_share_[n] = share(side[n], side[n]);
+  for (std::size_t e = 0; e < edge_share_.size(); ++e) {
+    const auto [a, b] = features_.edges[e].node;
+    edge_share_[e] = share(std::min(at(side, a), at(side, b)), std::max(at(side, a), at(side, b)));
+  }
+  std::vector<char> other(boxes_.size());
+  for (int f = 0; f < features_.triangle_count(); ++f)
+    at(other, f) = std::max({at(side, corner(f, 0)), at(side, corner(f, 1)), at(side, corner(f, 2))}) < 0;
+  patches_.leave_out(other);
+  whole_.setZero(cloth_.node_count, 3);
+}
+
+const Points3& ClothContact::whole(const Points3& nodes) {
+  if (!options_.half) return nodes;
+  options_.half->unfold(nodes, whole_);
+  return whole_;
+}
+
+double ClothContact::energy_gradient(const Points3& nodes, Points3& gradient) {
+  if (!options_.half) return pairs_.energy_gradient(nodes, gradient);
+  if (pairs_.empty()) return 0;
+  forces_.setZero(cloth_.node_count, 3);
+  const double energy = pairs_.energy_gradient(whole(nodes), forces_);
+  options_.half->add_folded(forces_, gradient);
+  return energy;
+}
+
+// Layers that touch their own reflections may not move across x = 0, which is the way that matters.
+void ClothContact::add_stiffness(const Points3& nodes, std::vector<Eigen::Triplet<double>>& entries) {
+  const std::size_t before = entries.size();
+  pairs_.add_stiffness(whole(nodes), entries);
+  if (!options_.half) return;
+  const HalfCloth& half = *options_.half;
+  for (std::size_t k = before; k < entries.size(); ++k) {
+    const auto i = static_cast<int>(entries[k].row()), j = static_cast<int>(entries[k].col());
+    const auto [column, row] = std::minmax({at(half.row, i), at(half.row, j)});
+    double value = entries[k].value();
+    if ((at(half.side, i) < 0) != (at(half.side, j) < 0)) value = -value;
+    if (i != j && row == column) value *= 2;
+    entries[k] = {row, column, value};
+  }
 }
 
 bool ClothContact::refresh(const Points3& nodes) {
@@ -58,28 +107,29 @@ bool ClothContact::refresh(const Points3& nodes) {
     reach_ = std::clamp(kReachPerMove * moved, std::max(kLeastReach * cloth_.mean_edge, 2 * options_.thickness),
                         kMostReach * cloth_.mean_edge);
   }
+  const Points3& all = whole(nodes);
   seen_at_ = nodes;
   moved_ = 0;
   fresh_ = true;
   stale_ = false;
   hindered_ = false;
   near_.clear(), pairs_.clear(), planes_.clear();
-  find_near(nodes);
-  find_piercings(nodes);
+  find_near(all);
+  find_piercings(all);
   mark_around_piercings();
   for (const auto& [f, g] : near_) {
-    find_vertex_pairs(nodes, f, g);
-    find_vertex_pairs(nodes, g, f);
-    find_edge_pairs(nodes, f, g);
+    find_vertex_pairs(all, f, g);
+    find_vertex_pairs(all, g, f);
+    find_edge_pairs(all, f, g);
   }
-  for (const PiercedTriangle& piercing : piercings_) add_push(nodes, piercing);
-  if (options_.mirror) planes_.reflect(options_.mirror->image);
+  for (const PiercedTriangle& piercing : piercings_) add_push(all, piercing);
+  if (options_.mirror && !options_.half) planes_.reflect(options_.mirror->image);
   planes_.sort(nodes);
   return pierced || !piercings_.empty() || swollen_;
 }
 
 void ClothContact::swell(const Points3& nodes) {
-  pairs_.swell(nodes, swelling_);
+  pairs_.swell(whole(nodes), options_.mirror ? options_.mirror->image : std::vector<int>(), swelling_);
   if (options_.mirror) symmetrise(*options_.mirror, swelling_);
   swollen_ = swelling_.any();
 }
@@ -117,7 +167,7 @@ void ClothContact::find_piercings(const Points3& nodes) {
   piercings_.clear();
   const auto look = [&](int f, int g) {
     for (int e : at(features_.owned_edges, f)) {
-      if (e < 0) continue;
+      if (e < 0 || at(edge_share_, e) == 0) continue;
       const auto [p, q] = at(features_.edges, e).node;
       if (features_.has_node(g, p) || features_.has_node(g, q)) continue;
       if (const auto found = pierce(nodes.row(p), nodes.row(q), nodes.row(corner(g, 0)), nodes.row(corner(g, 1)),
@@ -136,6 +186,9 @@ void ClothContact::mark_around_piercings() {
     for (int n : at(features_.edges, piercing.edge).node) at(marked_, n) = true;
     for (int k = 0; k < 3; ++k) at(marked_, corner(piercing.triangle, k)) = true;
   }
+  if (options_.mirror)
+    for (std::size_t n = 0; n < marked_.size(); ++n)
+      if (marked_[n]) at(marked_, options_.mirror->image[n]) = true;
   for (int ring = 0; ring < kMarkedRings; ++ring) {
     const std::vector<char> before = marked_;
     for (const ClothFeatures::Edge& edge : features_.edges)
@@ -152,7 +205,8 @@ void ClothContact::find_vertex_pairs(const Points3& nodes, int f, int g) {
   const double steep = reach_ * reach_ * normal.squaredNorm();
   for (int k = 0; k < 3; ++k) {
     const int v = corner(f, k);
-    if (at(features_.owner_of_node, v) != f || features_.has_node(g, v) || (uncertain && at(marked_, v))) continue;
+    if (at(features_.owner_of_node, v) != f || at(vertex_share_, v) == 0) continue;
+    if (features_.has_node(g, v) || (uncertain && at(marked_, v))) continue;
     const Vec3 p = nodes.row(v);
     const double height = normal.dot(p - a);
     if (height * height > steep || !at(boxes_, g).near({p, p}, reach_)) continue;
@@ -169,7 +223,7 @@ void ClothContact::find_vertex_pairs(const Points3& nodes, int f, int g) {
     });
     const Vec3& inside = nearest.barycentric;
     pair.taken_up = swelling(pair, {1, -inside[0], -inside[1], -inside[2]});
-    pair.stiffness = kVertexShare * options_.stiffness * cloth_.node_area[v];
+    pair.stiffness = at(vertex_share_, v) * kVertexShare * options_.stiffness * cloth_.node_area[v];
     pairs_.add(pair, nodes);
   }
 }
@@ -185,7 +239,8 @@ void ClothContact::find_edge_pairs(const Points3& nodes, int f, int g) {
     const bool uncertain = at(marked_, p) || at(marked_, q);
     for (int l = 0; l < 3; ++l) {
       const int other = at(features_.owned_edges, g)[static_cast<std::size_t>(l)];
-      if (other < 0) continue;
+      const double share = other < 0 ? 0.0 : 0.5 * (at(edge_share_, e) + at(edge_share_, other));
+      if (share == 0) continue;
       const auto [r, s] = at(features_.edges, other).node;
       if (p == r || p == s || q == r || q == s || (uncertain && (at(marked_, r) || at(marked_, s)))) continue;
       const Vec3 c = nodes.row(r), d = nodes.row(s);
@@ -203,7 +258,7 @@ void ClothContact::find_edge_pairs(const Points3& nodes, int f, int g) {
             .apart.norm();
       });
       pair.taken_up = swelling(pair, {1 - nearest.s, nearest.s, nearest.t - 1, -nearest.t});
-      pair.stiffness = kEdgeShare * options_.stiffness * 0.25 *
+      pair.stiffness = share * kEdgeShare * options_.stiffness * 0.25 *
                        (cloth_.node_area[p] + cloth_.node_area[q] + cloth_.node_area[r] + cloth_.node_area[s]);
       pairs_.add(pair, nodes);
     }
@@ -232,9 +287,17 @@ void ClothContact::add_planes(const LayerPair& pair, double distance, double alo
   const std::size_t above = pair.kind == LayerPair::Kind::VertexTriangle ? 1 : 2;
   for (std::size_t k = 0; k < 4; ++k)
     if (k < above)
-      planes_.add(pair.node[k], pair.normal, middle + margin);
+      add_plane(pair.node[k], pair.normal, middle + margin);
     else
-      planes_.add(pair.node[k], -pair.normal, -middle + margin);
+      add_plane(pair.node[k], -pair.normal, -middle + margin);
+}
+
+void ClothContact::add_plane(int node, const Vec3& normal, double offset) {
+  const HalfCloth* half = options_.half;
+  if (!half) return planes_.add(node, normal, offset);
+  const int row = at(half->row, node), side = at(half->side, node);
+  if (side >= 0) planes_.add(row, normal, offset);
+  if (side <= 0) planes_.add(row, {-normal.x(), normal.y(), normal.z()}, offset);
 }
 
 // Direction in which to move the edge against the triangle so that their line of intersection gets shorter.
@@ -274,7 +337,8 @@ void ClothContact::add_push(const Points3& nodes, const PiercedTriangle& piercin
   pair.node[0] = edge.node[0], pair.node[1] = edge.node[1];
   pair.weight[0] = 1 - piercing.s, pair.weight[1] = piercing.s;
   pair.normal = shortening(nodes, piercing);
-  pair.stiffness = options_.push_stiffness * 0.5 * (cloth_.node_area[edge.node[0]] + cloth_.node_area[edge.node[1]]);
+  pair.stiffness = at(edge_share_, piercing.edge) * options_.push_stiffness * 0.5 *
+                   (cloth_.node_area[edge.node[0]] + cloth_.node_area[edge.node[1]]);
   pair.offset = options_.push;
   pairs_.add(pair);  // its points coincide: n . sum(weight x) is 0 here
 }

@@ -17,8 +17,8 @@
 #include "engine/sim/cloth.h"
 #include "engine/sim/cloth_features.h"
 #include "engine/sim/cloth_patches.h"
+#include "engine/sim/half_cloth.h"
 #include "engine/sim/layer_pairs.h"
-#include "engine/sim/node_mirror.h"
 #include "engine/sim/node_planes.h"
 
 namespace toile {
@@ -30,11 +30,13 @@ struct ClothContactOptions {
   double push = 0.002;          // how far one refresh wants to draw a piercing pair, m
   double push_stiffness = 1e7;  // N/m^3: as firm as the cloth itself; legs sewn through each other stay so below 4e5
   const NodeMirror* mirror = nullptr;  // must outlive the contact; not null: nodes are symmetric, and so are the limits
+  // Must outlive the contact; not null: nodes everywhere are those of this half, which also touches the other one.
+  const HalfCloth* half = nullptr;
 };
 
 class ClothContact {
  public:
-  // `cloth` must outlive this; `mesh` need not.
+  // `cloth`, the whole of it, must outlive this; `mesh` need not.
   ClothContact(const Cloth& cloth, const PatternMesh& mesh, const ClothContactOptions& options);
 
   // Finds the pairs at `nodes` (#N x 3). True where cloth is or was pierced: the energy changes, evaluate again.
@@ -43,10 +45,13 @@ class ClothContact {
   // Lets layers swell that are pressed together (layer_pairs.h): the energy changes with the next refresh.
   void swell(const Points3& nodes);
 
-  // Forces between layers as found by the last refresh.
+  // Forces between layers as found by the last refresh, of the whole cloth.
   const LayerPairs& pairs() const { return pairs_; }
+  // Theirs; see LayerPairs.
+  double energy_gradient(const Points3& nodes, Points3& gradient);
+  void add_stiffness(const Points3& nodes, std::vector<Eigen::Triplet<double>>& entries);
   // Fixes their closest points and directions, until the next refresh.
-  void hold(const Points3& nodes) { pairs_.hold(nodes); }
+  void hold(const Points3& nodes) { pairs_.hold(whole(nodes)); }
 
   // Shortens the moves from `from`, where all planes hold, to `to` so that they still hold; no node goes further than
   // `longest`, m. False: all did. Where nothing can have come near a limit, no node is looked at.
@@ -69,6 +74,8 @@ class ClothContact {
     Vec3 barycentric;
   };
 
+  const Points3& whole(const Points3& nodes);
+  void leave_out_other_half();
   bool keep_within(double ball, Points3& to);  // of where nodes were seen; false: all were
   void find_near(const Points3& nodes);
   void find_involved();
@@ -78,6 +85,7 @@ class ClothContact {
   void find_edge_pairs(const Points3& nodes, int f, int g);
   double swelling(const LayerPair& pair, const std::array<double, 4>& weight) const;
   void add_planes(const LayerPair& pair, double distance, double along);
+  void add_plane(int node, const Vec3& normal, double offset);
   template <class Distance>
   double thickness_of(int f, int g, Distance distance_at_rest) const;
   void add_push(const Points3& nodes, const PiercedTriangle& piercing);
@@ -90,6 +98,10 @@ class ClothContact {
   ClothFeatures features_;
   Points2 rest_centre_;  // #T x 2, m
   ClothPatches patches_;
+
+  // What counts of a vertex' or an edge's pairs: 1; of the half's garment half on the middle, none on the other side.
+  std::vector<double> vertex_share_, edge_share_;
+  Points3 whole_, forces_;  // #N x 3 of the half's garment
 
   double reach_;
   Points3 seen_at_;     // #N x 3, of the last refresh

@@ -206,7 +206,16 @@ bool ClothPatches::together(int a, int b) const {
   return between;
 }
 
+void ClothPatches::leave_out(const std::vector<char>& triangles) {
+  out_ = triangles;
+  all_out_.assign(patches_.size(), true);
+  for (std::size_t p = 0; p < patches_.size(); ++p)
+    for (int k = patches_[p].begin; k < patches_[p].end; ++k)
+      if (!out_[static_cast<std::size_t>(order_[static_cast<std::size_t>(k)])]) all_out_[p] = false;
+}
+
 void ClothPatches::add_pair(int a, int b, double reach) {
+  if (!all_out_.empty() && all_out_[static_cast<std::size_t>(a)] && all_out_[static_cast<std::size_t>(b)]) return;
   if (!patch(a).box.near(patch(b).box, reach)) return;
   if (together(a, b)) return;
   found_.push_back({std::min(a, b), std::max(a, b), -1});
@@ -223,7 +232,8 @@ void ClothPatches::find_pairs(double reach) {
   for (std::size_t i = 0; i < by_height_.size(); ++i) {
     const int a = by_height_[i];
     if (!moved(a)) continue;
-    if (!smooth(patch(a), patch(a))) found_.push_back({a, a, -1});
+    const bool out = !all_out_.empty() && all_out_[static_cast<std::size_t>(a)];
+    if (!out && !smooth(patch(a), patch(a))) found_.push_back({a, a, -1});
     for (std::size_t j = i + 1; j < by_height_.size() && low(by_height_[j]) <= patch(a).box.high.y() + reach; ++j)
       add_pair(a, by_height_[j], reach);
     if (moved_count_ == static_cast<int>(patches_.size())) continue;
@@ -244,9 +254,12 @@ void ClothPatches::add_near(const PatchPair& pair, double reach) {
   collect(patch(pair.a), patch(pair.b).box, near_a_);
   collect(patch(pair.b), patch(pair.a).box, near_b_);
   const auto triangle = [this](int k) { return order_[static_cast<std::size_t>(k)]; };
+  const auto out = [&](int i, int j) {
+    return !out_.empty() && out_[static_cast<std::size_t>(triangle(i))] && out_[static_cast<std::size_t>(triangle(j))];
+  };
   for (std::size_t i = 0; i < near_a_.size(); ++i)
     for (std::size_t j = pair.a == pair.b ? i + 1 : 0; j < near_b_.size(); ++j)
-      if (box_of(near_a_[i]).near(box_of(near_b_[j]), reach))
+      if (!out(near_a_[i], near_b_[j]) && box_of(near_a_[i]).near(box_of(near_b_[j]), reach))
         renewed_.emplace_back(triangle(near_a_[i]), triangle(near_b_[j]));
 }
 

@@ -23,6 +23,9 @@ class ClothPatches {
   // plane; `panel`: of every triangle, ascending.
   ClothPatches(const Triangles& triangles, const Points2& rest, const std::vector<int>& panel);
 
+  // Pairs of two of these triangles are of no interest.
+  void leave_out(const std::vector<char>& triangles);
+
   // Takes in where the nodes are now. Afterwards near() has every pair of triangles whose boxes are closer than
   // `reach`, but for those that lie in smooth cloth together. Patches are searched within `wider` (> reach), anew only
   // when a node of theirs has moved by half the difference. False: near() is as it was.
@@ -72,6 +75,7 @@ class ClothPatches {
   std::vector<TriangleBox> boxes_;            // of the triangles in order_
   std::vector<int> by_height_;                // patches
   std::vector<char> moved_;                   // per patch
+  std::vector<char> out_, all_out_;           // per triangle, and per patch all of them; empty: none
   int moved_count_ = 0;
   bool measured_ = false;
   std::vector<PatchPair> pairs_, found_, merged_;

@@ -27,9 +27,10 @@ double DrapeEnergy::evaluate(const Points3& nodes, Points3& gradient) {
         touching = gravity(nodes, touching_) + ties(nodes, touching_);
         if (contact_) touching += contact_->energy_gradient(nodes, touching_);
         if (edge_contact) touching += edge_contact->energy_gradient(nodes, touching_);
-        if (cloth_contact) touching += cloth_contact->pairs().energy_gradient(nodes, touching_);
+        if (cloth_contact) touching += cloth_contact->energy_gradient(nodes, touching_);
       });
   gradient += touching_;
+  cloth_.hold_middle(gradient);
   if (mirror) symmetrise(*mirror, gradient);
   return cloth + touching;
 }
@@ -48,7 +49,24 @@ void DrapeEnergy::evaluate_hessian(const Points3& nodes, Curvature curvature, Bl
 }
 
 double DrapeEnergy::residual(const Points3& gradient) const {
-  return std::sqrt(gradient.squaredNorm() / static_cast<double>(gradient.rows())) / cloth_.mean_node_weight();
+  double squared = gradient.squaredNorm();
+  for (const int i : cloth_.middle) squared += gradient.row(i).squaredNorm();  // half of the force squared is a quarter
+  if (cloth_.half) squared *= 2;
+  return std::sqrt(squared / cloth_.whole_node_count()) / cloth_.mean_node_weight();
+}
+
+Eigen::VectorXd DrapeEnergy::squared_forces(const Points3& gradient) const {
+  Eigen::VectorXd squares = gradient.rowwise().squaredNorm();
+  if (!cloth_.half) return squares;
+  for (const int i : cloth_.middle) squares[i] *= 4;
+  Eigen::VectorXd both(2 * squares.size());
+  both << squares, squares;
+  Eigen::Index count = squares.size();
+  std::vector<bool> single(static_cast<std::size_t>(count), false);
+  for (const int i : cloth_.middle) single[static_cast<std::size_t>(i)] = true;
+  for (Eigen::Index i = 0; i < squares.size(); ++i)
+    if (!single[static_cast<std::size_t>(i)]) both[count++] = squares[i];
+  return both.head(count);
 }
 
 double DrapeEnergy::bending(const Points3& nodes, Points3& gradient) const {
@@ -64,6 +82,13 @@ double DrapeEnergy::bending(const Points3& nodes, Points3& gradient) const {
     const double* p = nodes.data() + 3 * i;
     g[0] += x, g[1] += y, g[2] += z;
     energy += 0.5 * (x * p[0] + y * p[1] + z * p[2]);
+  }
+  const SparseMatrix& across = cloth_.bending_across;
+  for (Eigen::Index i = 0; i < across.outerSize(); ++i) {
+    double x = 0;
+    for (SparseMatrix::InnerIterator it(across, i); it; ++it) x += it.value() * nodes(it.index(), 0);
+    gradient(i, 0) += x;
+    energy += 0.5 * x * nodes(i, 0);
   }
   return energy;
 }

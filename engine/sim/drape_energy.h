@@ -7,7 +7,7 @@
 #include "engine/sim/cloth_contact.h"
 #include "engine/sim/contact.h"
 #include "engine/sim/edge_contact.h"
-#include "engine/sim/node_mirror.h"
+#include "engine/sim/half_cloth.h"
 
 namespace toile {
 
@@ -36,6 +36,9 @@ class DrapeEnergy {
   Helper* helper = nullptr;               // must outlive the energy; null: one thread. The same bytes either way
   EdgeContact* edge_contact = nullptr;    // must outlive the energy; null: edges may lie in the body
   const NodeMirror* mirror = nullptr;     // must outlive the energy; not null: sought among symmetric positions alone
+  // Must outlive the energy; not null: the cloth is this half of a symmetric garment, and so are nodes, holds and pins.
+  // The energy is half that of both, and so are forces on the middle; those elsewhere are the same.
+  const HalfCloth* half = nullptr;
 
   // Energy at `nodes` (#N x 3); `gradient` is overwritten, N.
   double evaluate(const Points3& nodes, Points3& gradient);
@@ -45,6 +48,8 @@ class DrapeEnergy {
 
   // Root of the mean squared nodal gradient over the mean node weight: dimensionless, 0 at rest.
   double residual(const Points3& gradient) const;
+  // Squared gradient at every node, those of the other half included, N^2.
+  Eigen::VectorXd squared_forces(const Points3& gradient) const;
 
   const Cloth& cloth() const { return cloth_; }
   Contact* contact() const { return contact_; }

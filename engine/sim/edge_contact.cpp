@@ -24,8 +24,12 @@ std::vector<std::pair<int, int>> edges_of(const Cloth& cloth) {
 }  // namespace
 
 EdgeContact::EdgeContact(const Cloth& cloth, SignedField& field, const ContactOptions& options)
-    : cloth_(cloth), field_(field), options_(options) {
-  for (const auto& [a, b] : edges_of(cloth)) edges_.push_back({a, b});
+    : field_(field), options_(options) {
+  Eigen::VectorXd area = cloth.node_area;
+  for (const int n : cloth.middle) area[n] *= 2;
+  const auto on_cut = [&](int n) { return std::binary_search(cloth.middle.begin(), cloth.middle.end(), n); };
+  for (const auto& [a, b] : edges_of(cloth))  // of an edge along the cut one side counts
+    edges_.push_back({a, b, (on_cut(a) && on_cut(b) ? 0.25 : 0.5) * (area[a] + area[b])});
 }
 
 double EdgeContact::depth(Edge& edge, const Points3& nodes, Vec3& normal) {

@@ -12,7 +12,7 @@ namespace toile {
 
 class EdgeContact {
  public:
-  // Both must outlive the contact. Of the options, `stiffness` and `linear_beyond` count.
+  // `field` must outlive the contact. Of the options, `stiffness` and `linear_beyond` count.
   EdgeContact(const Cloth& cloth, SignedField& field, const ContactOptions& options);
 
   // Takes up the edges whose middles lie inside at `nodes` (#N x 3). True if there are new ones: the energy changes,
@@ -32,18 +32,16 @@ class EdgeContact {
  private:
   struct Edge {
     int a, b;
+    double area;            // mean of its ends', m^2
     std::int32_t hint = 0;  // of the field
     bool kept = false;
   };
   static constexpr double kFirmer = 4;
   // Depth of the middle, with the field's gradient there; 0 or less outside.
   double depth(Edge& edge, const Points3& nodes, Vec3& normal);
-  double stiffness(const Edge& edge) const {
-    return kFirmer * options_.stiffness * 0.5 * (cloth_.node_area[edge.a] + cloth_.node_area[edge.b]);
-  }
+  double stiffness(const Edge& edge) const { return kFirmer * options_.stiffness * edge.area; }
   Edge& edge(int k) { return edges_[static_cast<std::size_t>(k)]; }
 
-  const Cloth& cloth_;
   SignedField& field_;
   ContactOptions options_;
   std::vector<Edge> edges_;

@@ -129,10 +129,11 @@ double LayerPairs::energy_gradient(const Points3& nodes, Points3& gradient) cons
   return total;
 }
 
-void LayerPairs::swell(const Points3& nodes, Points3& swelling) const {
+void LayerPairs::swell(const Points3& nodes, const std::vector<int>& image, Points3& swelling) const {
   struct Narrowest {
     double lack = 0, most = 0;  // m
     Vec3 side = Vec3::Zero();
+    bool narrower(const Narrowest& other) const { return most > 0 && (other.most <= 0 || lack > other.lack); }
   };
   std::vector<Narrowest> narrowest(static_cast<std::size_t>(nodes.rows()));
   for (const Moving& pair : moving_) {
@@ -142,9 +143,14 @@ void LayerPairs::swell(const Points3& nodes, Points3& swelling) const {
     if (lack < 0) lack = std::min(0.0, lack + kSlack * pair.thickness);
     for (std::size_t k = 0; k < 4; ++k) {
       Narrowest& at = narrowest[static_cast<std::size_t>(pair.node[k])];
-      if (std::abs(c.weight[k]) < kLeastWeight || (at.most > 0 && lack <= at.lack)) continue;
-      at = {lack, kMostSwelling * pair.thickness, c.weight[k] > 0 ? c.normal : Vec3(-c.normal)};
+      const Narrowest here = {lack, kMostSwelling * pair.thickness, c.weight[k] > 0 ? c.normal : Vec3(-c.normal)};
+      if (std::abs(c.weight[k]) >= kLeastWeight && here.narrower(at)) at = here;
     }
+  }
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const Narrowest& there = narrowest[static_cast<std::size_t>(image[i])];
+    if (there.narrower(narrowest[i]))
+      narrowest[i] = {there.lack, there.most, {-there.side.x(), there.side.y(), there.side.z()}};
   }
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
     const Narrowest& at = narrowest[static_cast<std::size_t>(i)];

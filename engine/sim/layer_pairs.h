@@ -36,6 +36,7 @@ struct LayerPush {
 class LayerPairs {
  public:
   void clear();
+  bool empty() const { return moving_.empty() && held_.empty() && pushes_.empty(); }
   void add(const LayerPair& pair, const Points3& nodes);
   void add(const LayerPush& push) { pushes_.push_back(push); }
   // Fixes closest points and directions as they are at `nodes`, until the next clear(): the Hessian is exact then.
@@ -44,8 +45,9 @@ class LayerPairs {
   // Adds the gradient (#N x 3, N) and returns the energy, J.
   double energy_gradient(const Points3& nodes, Points3& gradient) const;
   // Lets nodes swell by what the narrowest of their pairs lacks to the floor at `nodes`, or shrink by half of what it
-  // exceeds it (#N x 3 each, m). Counts with the pairs added from then on.
-  void swell(const Points3& nodes, Points3& swelling) const;
+  // exceeds it (#N x 3 each, m). Counts with the pairs added from then on. `image`, unless empty: node across x = 0 of
+  // every node, which has the reflections of its pairs.
+  void swell(const Points3& nodes, const std::vector<int>& image, Points3& swelling) const;
 
   // Adds the second derivatives but for those of the directions; never negative.
   void add_hessian(const Points3& nodes, BlockHessian& hessian) const;

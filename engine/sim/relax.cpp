@@ -25,7 +25,7 @@ constexpr int kPatience = 10;        // rounds in which a knot of layers may com
 
 // DrapeEnergy::residual of the nodes with the least forces.
 double calm_residual(const DrapeEnergy& energy, const Points3& gradient) {
-  Eigen::VectorXd squares = gradient.rowwise().squaredNorm();
+  Eigen::VectorXd squares = energy.squared_forces(gradient);
   const auto calm = static_cast<Eigen::Index>(std::ceil(kCalmShare * static_cast<double>(squares.size())));
   std::nth_element(squares.data(), squares.data() + calm - 1, squares.data() + squares.size());
   return std::sqrt(squares.head(calm).mean()) / energy.cloth().mean_node_weight();
@@ -58,7 +58,7 @@ class Relaxation {
       if (nodes(hold.node, 1) < hold.height) matrix.coeffRef(hold.node, hold.node) += kHoldShare * hold.stiffness;
     for (const Pin& pin : energy_.pins) matrix.coeffRef(pin.node, pin.node) += pin.stiffness;
     if (energy_.cloth_contact) add_layers(nodes, matrix);
-    if (!solver_.factor(matrix))
+    if (!solver_.factor(matrix, cloth.middle))
       throw Error(ErrorCode::DrapeFailed, "garment",
                   "the cloth's stiffness matrix cannot be factored; check the fabric");
   }
@@ -66,14 +66,15 @@ class Relaxation {
   // Layers that touch move together easily, apart with difficulty.
   void add_layers(const Points3& nodes, SparseMatrix& matrix) const {
     std::vector<Eigen::Triplet<double>> entries;
-    energy_.cloth_contact->pairs().add_stiffness(nodes, entries);
+    energy_.cloth_contact->add_stiffness(nodes, entries);
     if (entries.empty()) return;
     SparseMatrix layers(nodes.rows(), nodes.rows());
     layers.setFromTriplets(entries.begin(), entries.end());
     matrix += kLayerShare * layers;
   }
 
-  RelaxResult run(const Points3& start, Progress* progress) {
+  RelaxResult run(const Points3& whole_start, Progress* progress) {
+    const Points3 start = energy_.half ? energy_.half->folded(whole_start) : whole_start;
     QuasiNewton minimiser(energy_.cloth().node_count, options_.quasi_newton);
     minimiser.set_helper(&helper_);
     energy_.helper = &helper_;
@@ -85,11 +86,12 @@ class Relaxation {
       minimiser.set_limit([this](const Points3& from, Points3& to, double longest) {
         const bool limited = energy_.cloth_contact && energy_.cloth_contact->limit(from, to, longest);
         if (energy_.mirror) symmetrise(*energy_.mirror, to);
+        if (limited) energy_.cloth().hold_middle(to);
         return limited || energy_.mirror;
       });
     minimiser.start(start, evaluate);
-    watched_ = watched_means(start);
-    swing_.emplace(start);
+    watched_ = watched_means(whole_start);
+    swing_.emplace(whole_start);
     while (result_.iterations < options_.iterations && !done()) {
       report(progress, "drape", static_cast<double>(result_.iterations) / options_.iterations);
       helper_.call();
@@ -103,8 +105,8 @@ class Relaxation {
       judge(minimiser, whole);
     }
     energy_.helper = nullptr;
-    result_.nodes = minimiser.nodes();
-    result_.energy = minimiser.energy();
+    result_.nodes = whole(minimiser.nodes());
+    result_.energy = (energy_.half ? 2 : 1) * minimiser.energy();
     result_.evaluations = minimiser.evaluations();
     return result_;
   }
@@ -159,12 +161,13 @@ class Relaxation {
     result_.converged = result_.residual < options_.stop_residual;
     if (!whole_round) return;
     result_.stalled |= standstill_.after_round(result_.residual, minimiser.energy());
-    const std::vector<Vec3> means = watched_means(minimiser.nodes());
+    const Points3 nodes = whole(minimiser.nodes());
+    const std::vector<Vec3> means = watched_means(nodes);
     result_.last_move = 0;
     for (std::size_t k = 0; k < means.size(); ++k)
       result_.last_move = std::max(result_.last_move, (means[k] - watched_[k]).norm());
     watched_ = means;
-    to_come_ = swing_->after_round(minimiser.nodes());
+    to_come_ = swing_->after_round(nodes);
     calm_residual_ = calm_residual(energy_, minimiser.gradient());
     const bool calm = result_.iterations >= options_.least_iterations && calm_residual_ < options_.settled_residual &&
                       result_.last_move < options_.settled_move;
@@ -172,6 +175,8 @@ class Relaxation {
     result_.settled = calm && result_.residual < options_.settled_everywhere;
     knotted_ = energy_.cloth_contact && energy_.cloth_contact->piercings() > 0;
   }
+
+  Points3 whole(const Points3& nodes) const { return energy_.half ? energy_.half->unfolded(nodes) : nodes; }
 
   std::vector<Vec3> watched_means(const Points3& nodes) const {
     std::vector<Vec3> means;
@@ -185,6 +190,7 @@ class Relaxation {
   void freeze_at_start(const Points3& start) {
     Points3 pull = Points3::Zero(start.rows(), 3);
     membrane_energy_gradient(energy_.cloth(), start, pull);
+    energy_.cloth().hold_middle(pull);
     energy_.contact()->freeze_friction(start, pull, kStartReach);
   }
 

@@ -18,9 +18,9 @@ struct RelaxOptions {
   int look_soon = 2;           // the same where a pair has stopped a node
   double stop_residual = 0.3;  // of a mean node weight (DrapeEnergy::residual), with friction just frozen
   // Of all nodes but the worst fiftieth: a knot of a few crossing layers may push for ever without moving anything.
-  double settled_residual = 2.6;          // below it and without movement the drape counts as settled
-  double settled_everywhere = 3.0;        // the same of all nodes
-  double settled_move = 0.0005;           // m a watched line may move over a round and still count as settled
+  double settled_residual = 2.6;    // below it and without movement the drape counts as settled
+  double settled_everywhere = 3.0;  // the same of all nodes
+  double settled_move = 0.0005;     // m a watched line may move over a round and still count as settled
   // Cloth that swings along a soft valley has next to no residual: the moves of the last two rounds, continued as a
   // geometric series, must come to less (m, root mean square of the nodes) before it is left at that. The series may
   // be too short by half: 2.3 mm were left of a dress for which it said less than 2.
@@ -35,7 +35,7 @@ struct RelaxResult {
   Points3 nodes;           // #N x 3
   double residual = 0.0;   // see DrapeEnergy::residual
   double last_move = 0.0;  // largest move of a watched line over the last full round, m
-  double energy = 0.0;     // J
+  double energy = 0.0;     // of the whole garment, J
   int iterations = 0;
   int evaluations = 0;
   bool converged = false;  // stop_residual reached with friction just frozen
@@ -43,6 +43,7 @@ struct RelaxResult {
   bool stalled = false;    // no further decrease could be found, or it gets nowhere (standstill.h)
 };
 
+// `start` and the result: of the whole garment, also where the energy is that of a half.
 RelaxResult relax(DrapeEnergy& energy, const Points3& start, const RelaxOptions& options, Progress* progress);
 
 }  // namespace toile

@@ -21,13 +21,13 @@ class SewingSolver {
         field_(field),
         thickness_(thickness),
         options_(options),
-        x_(start),
-        z_(start),
-        u_(start),
-        gradient_(start),
-        right_(start.rows(), 3),
-        solution_(start.rows(), 3),
-        hint_(static_cast<std::size_t>(start.rows()), 0) {
+        x_(energy.half ? energy.half->folded(start) : start),
+        z_(x_),
+        u_(x_),
+        gradient_(x_),
+        right_(x_.rows(), 3),
+        solution_(x_.rows(), 3),
+        hint_(static_cast<std::size_t>(x_.rows()), 0) {
     u_.setZero();
     push_all_out();
     energy_.evaluate(x_, gradient_);
@@ -40,7 +40,7 @@ class SewingSolver {
     SparseMatrix matrix = membrane_bound(cloth);
     for (Eigen::Index i = 0; i < weight_.size(); ++i) matrix.coeffRef(i, i) += weight_[i] + bending[i];
     for (const Hold& hold : energy_.holds) matrix.coeffRef(hold.node, hold.node) += hold.stiffness;
-    if (!solver_.factor(matrix))
+    if (!solver_.factor(matrix, cloth.middle))
       throw Error(ErrorCode::DrapeFailed, "garment",
                   "the cloth's stiffness matrix cannot be factored; check the fabric");
   }
@@ -56,7 +56,7 @@ class SewingSolver {
   }
 
   void call_helper() { helper_.call(); }
-  const Points3& nodes() const { return x_; }
+  Points3 nodes() const { return energy_.half ? energy_.half->unfolded(x_) : x_; }
 
  private:
   Vec3 push_out(Vec3 p, std::int32_t& hint) {

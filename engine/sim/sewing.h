@@ -31,6 +31,7 @@ struct SewingResult {
 };
 
 // `energy`: membrane and bending of the cloth, no gravity; its contact is not used, only `field` and `thickness`.
+// `start` and the result: of the whole garment, also where the energy is that of a half.
 SewingResult sew(DrapeEnergy& energy, SignedField& field, double thickness, const Points3& start,
                  const SewingOptions& options, Progress* progress);
 

@@ -27,7 +27,11 @@ constexpr double kStartReach = 0.001;  // m, within which friction at the start 
 class RestSeeker {
  public:
   RestSeeker(const GarmentOnBody& garment, const DrapeOptions& options, DrapeResult& result, Progress* progress)
-      : garment_(garment), options_(options), result_(result), progress_(progress) {}
+      : garment_(garment),
+        cloth_(garment.half ? garment.half->cloth : garment.cloth),
+        options_(options),
+        result_(result),
+        progress_(progress) {}
 
   void run(const Points3& start) {
     report(progress_, "drape", 0);
@@ -39,28 +43,29 @@ class RestSeeker {
     }
   }
 
-  const FrictionState& friction() const { return friction_; }
+  const FrictionState& friction() const { return friction_; }  // of the whole garment
 
  private:
   // True: the cloth pulls so hard that nodes lie deep in the body.
   bool relax_on(double stiffness, const Points3& start) {
-    garment_.field.look_ahead(start, garment_.thickness + kStartReach);
+    garment_.field.look_ahead(moved(start), garment_.thickness + kStartReach);
     ContactOptions contact_options;
     contact_options.thickness = garment_.thickness;
     contact_options.stiffness = stiffness;
     contact_options.friction = options_.friction;
-    Contact contact(garment_.cloth, garment_.field, contact_options);
-    if (garment_.friction) contact.start_friction(*garment_.friction, garment_.hold_friction);
-    EdgeContact edges(garment_.cloth, garment_.field, contact_options);
-    DrapeEnergy energy(garment_.cloth, &contact, options_.gravity);
+    Contact contact(cloth_, garment_.field, contact_options);
+    if (garment_.friction)
+      contact.start_friction(garment_.half ? garment_.half->folded(*garment_.friction) : *garment_.friction,
+                             garment_.hold_friction);
+    EdgeContact edges(cloth_, garment_.field, contact_options);
+    DrapeEnergy energy(cloth_, &contact, options_.gravity);
     energy.edge_contact = &edges;
-    energy.holds = garment_.holds;
-    energy.pins = garment_.pins;
-    energy.mirror = garment_.mirror;
+    take_ties(energy);
     std::optional<ClothContact> layers;
     if (options_.self_contact != SelfContact::Off) {
       ClothContactOptions layers_options;
-      layers_options.mirror = energy.mirror;
+      layers_options.mirror = garment_.mirror;
+      layers_options.half = garment_.half;
       layers.emplace(garment_.cloth, garment_.mesh, layers_options);
       energy.cloth_contact = &*layers;
     }
@@ -68,11 +73,21 @@ class RestSeeker {
     if (options_.solver == SolverKind::Newton && options_.friction == 0) return refine(energy, start), false;
     const RelaxResult relaxed = relax(energy, start, relax_options(), progress_);
     take_over(relaxed);
-    friction_ = contact.friction();
+    friction_ = garment_.half ? garment_.half->unfolded(contact.friction()) : contact.friction();
     result_.quality.settling_move = relaxed.last_move;
     result_.quality.rest = rest_of(relaxed);
     if (options_.solver == SolverKind::Newton) return refine(energy, relaxed.nodes), false;
-    return presses_deep(contact.distances(), edges);
+    return presses_deep(energy, contact.distances(), edges);
+  }
+
+  // Of the nodes of the garment those that the solver moves.
+  Points3 moved(const Points3& nodes) const { return garment_.half ? garment_.half->folded(nodes) : nodes; }
+
+  void take_ties(DrapeEnergy& energy) const {
+    energy.half = garment_.half;
+    if (!garment_.half) energy.mirror = garment_.mirror;
+    energy.holds = garment_.half ? garment_.half->folded(garment_.holds) : garment_.holds;
+    energy.pins = garment_.half ? garment_.half->folded(garment_.pins) : garment_.pins;
   }
 
   RelaxOptions relax_options() const {
@@ -93,9 +108,9 @@ class RestSeeker {
 
   // Whether nodes or middles of edges lie deep in the body itself: within toes and fingers the field is flatter. Pinned
   // nodes lie where they are wanted.
-  bool presses_deep(Eigen::VectorXd distances, EdgeContact& edges) const {
-    for (const Pin& pin : garment_.pins) distances[pin.node] = 0;
-    const Points3& nodes = result_.drape.nodes;
+  bool presses_deep(const DrapeEnergy& energy, Eigen::VectorXd distances, EdgeContact& edges) const {
+    for (const Pin& pin : energy.pins) distances[pin.node] = 0;
+    const Points3 nodes = moved(result_.drape.nodes);
     for (Eigen::Index i = 0; i < distances.size(); ++i)
       if (distances[i] < 0 && depth_inside(garment_.field.tree(), nodes.row(i)) > kDeep) return true;
     if (!garment_.pins.empty()) return false;
@@ -108,6 +123,7 @@ class RestSeeker {
   void take_over(const Solved& solved) {
     result_.drape.nodes = solved.nodes;
     DrapeDiagnostics& d = result_.diagnostics;
+    d.moved_nodes = cloth_.node_count;
     d.iterations += solved.iterations;
     d.evaluations += solved.evaluations;
     d.energy = solved.energy;
@@ -145,6 +161,7 @@ class RestSeeker {
   }
 
   const GarmentOnBody& garment_;
+  const Cloth& cloth_;  // that moves
   const DrapeOptions& options_;
   DrapeResult& result_;
   Progress* progress_;

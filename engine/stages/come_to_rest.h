@@ -16,6 +16,7 @@ struct GarmentOnBody {
   std::vector<Hold> holds;
   std::vector<Pin> pins;
   const NodeMirror* mirror = nullptr;       // not null: sought among symmetric drapes
+  const HalfCloth* half = nullptr;          // not null: by moving this half alone, with `mirror`
   std::vector<std::vector<int>> watched;    // lines of nodes that tell whether it still moves
   bool worn = false;                        // it was at rest before
   const FrictionState* friction = nullptr;  // not null: of the start

@@ -28,7 +28,8 @@ constexpr double kTangledShare = 0.1;  // of piercings in the triangles: worn an
 
 constexpr double kMuchFiner = 1.5;  // times the triangles of the coarse mesh are worth draping that first
 
-constexpr double kPinShare = 50;  // stiffness of a pin over that of contact: 1 N/m of tension moves it by 0.2 mm
+constexpr double kHalfDeep = 5e-4;  // m: a half with nodes deeper inside the body is no rest
+constexpr double kPinShare = 50;    // stiffness of a pin over that of contact: 1 N/m of tension moves it by 0.2 mm
 
 void check_options(const DrapeOptions& o) {
   const auto check = [](bool good, const char* name, const char* range) {
@@ -159,7 +160,7 @@ class Draper {
     find_mirror(start);
     Points3 sewn = smoothed(start, sewing);
     if (mirror_ && !part_sides(*mirror_, sewn)) {
-      mirror_.reset();
+      mirror_.reset(), half_.reset();
       sewn = smoothed(start, sewing);
     }
     finish(sewn);
@@ -169,6 +170,9 @@ class Draper {
   void find_mirror(const Points3& start) {
     mirror_ = find_node_mirror(pattern_, mesh_, cloth_, body_.surface.vertices, start);
     if (mirror_ && !pinned_alike(*mirror_)) mirror_.reset();
+    half_.reset();
+    if (mirror_ && options_.halve && options_.solver == SolverKind::Default && !hold_friction_)
+      half_ = half_of(cloth_, *mirror_, start);
   }
 
   void make_symmetric(Points3& start) {
@@ -179,7 +183,7 @@ class Draper {
     if (part_sides(*mirror_, symmetric))
       start = symmetric;
     else
-      mirror_.reset();
+      mirror_.reset(), half_.reset();
   }
 
   bool pinned_alike(const NodeMirror& mirror) const {
@@ -192,9 +196,10 @@ class Draper {
   // Without gravity, friction and contact between layers.
   Points3 smoothed(Points3 start, const SewingOptions& options) {
     if (mirror_) symmetrise(*mirror_, start);
-    DrapeEnergy energy(cloth_, nullptr, 0.0);
-    energy.holds = holds_;
-    energy.mirror = mirror_ ? &*mirror_ : nullptr;
+    DrapeEnergy energy(half_ ? half_->cloth : cloth_, nullptr, 0.0);
+    energy.holds = half_ ? half_->folded(holds_) : holds_;
+    energy.half = half_ ? &*half_ : nullptr;
+    energy.mirror = mirror_ && !half_ ? &*mirror_ : nullptr;
     const SewingResult sewn = sew(energy, *field_, thickness_, start, options, progress_);
     result_.diagnostics.sewing_iterations = sewn.iterations;
     return sewn.nodes;
@@ -247,15 +252,26 @@ class Draper {
       result_.drape.nodes = start, result_.quality.rest = Rest::AsGiven;
     else
       rest_from(start);
+    measure();
+    if (half_ && !rests_well()) half_.reset(), rest_from(start), measure();
+    GuardScene scene{mesh_, nullptr, nullptr, waist_, result_.diagnostics.hold_height};
+    if (body_.skeleton) scene.garment = &garment_, scene.guides = &guides_;
+    result_.diagnostics.findings = check_drape(scene, result_.drape, result_.quality);
+    report(progress_, "drape", 1);
+  }
+
+  void measure() {
     const DrapeQuality solved = result_.quality;
     if (result_.drape.nodes.allFinite()) result_.quality = measure_drape(mesh_, field_->tree(), result_.drape);
     result_.quality.rest = solved.rest;
     result_.quality.residual = solved.residual;
     result_.quality.settling_move = solved.settling_move;
-    GuardScene scene{mesh_, nullptr, nullptr, waist_, result_.diagnostics.hold_height};
-    if (body_.skeleton) scene.garment = &garment_, scene.guides = &guides_;
-    result_.diagnostics.findings = check_drape(scene, result_.drape, result_.quality);
-    report(progress_, "drape", 1);
+  }
+
+  // Half a garment may catch in folds or on toes alike on both sides, where the whole frees itself.
+  bool rests_well() const {
+    return result_.quality.rest != Rest::NotAtRest && result_.drape.nodes.allFinite() &&
+           result_.quality.deepest_node < kHalfDeep;
   }
 
   void rest_from(const Points3& start) {
@@ -266,6 +282,7 @@ class Draper {
                                 .holds = holds_,
                                 .pins = pins_,
                                 .mirror = mirror_ ? &*mirror_ : nullptr,
+                                .half = half_ ? &*half_ : nullptr,
                                 .watched = free_lines(pattern_, mesh_),
                                 .worn = rested_,
                                 .friction = start_ ? &start_->friction : nullptr,
@@ -289,6 +306,7 @@ class Draper {
   std::vector<Hold> holds_;
   std::vector<Pin> pins_;
   std::optional<NodeMirror> mirror_;  // where body and garment are the same on both sides
+  std::optional<HalfCloth> half_;     // which then moves alone
   const HeldDrape* start_ = nullptr;  // of the start; null: from flat, or none is known
   bool hold_friction_ = false;        // that of the start for good, instead of frozen anew in rounds
   HeldDrape end_;

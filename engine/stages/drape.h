@@ -5,7 +5,7 @@
 // From flat: arrange the panels so that every limb lies inside its tube, weld, sew without gravity, then relax; a fine
 // mesh does so from where a coarse one came to rest.
 // From a given start (a transported or stored drape): relax only.
-// Where body, pattern and start are the same on the left and the right, so is the drape.
+// Where body, pattern and start are the same on the left and the right, so is the drape, and one half is moved.
 // Source: design/sewing.md; [Eggler2024, Sec. 7].  SI units.
 #pragma once
 
@@ -44,12 +44,14 @@ struct DrapeOptions {
   // From flat, a finer mesh goes on from the drape of one of that many triangles, with its friction: of the many ways
   // in which friction lets cloth rest, all meshes take the same one. 0, 500..200000; 0: every mesh from flat.
   int coarse_triangles = 4000;
+  bool halve = true;  // where both sides are the same, move one and reflect it (solver Default); false: move both
 };
 
 struct DrapeDiagnostics {
   double upper_shift = 0.0;  // m the torso was raised by the arrangement
   bool bodice = false;       // the shoulders carry the garment: no waist hold, contact with the arms
   double hold_height = 0.0;  // m the waist is kept from sinking below; 0: not held
+  int moved_nodes = 0;       // by the solver; of a symmetric garment those of one half
   int sewing_iterations = 0;
   int iterations = 0;
   int evaluations = 0;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// drape [GARMENT...] [--triangles N] [--body NAME | --other-bodies] [--no-self-contact] [--iterations N]
-//       [--sheet FILE.png] [growth]
+// drape [GARMENT...] [--triangles N] [--body NAME | --other-bodies] [--no-self-contact] [--whole]
+//       [--iterations N] [--sheet FILE.png] [growth | halves]
 // Sews and drapes garments of ../shared/data from flat, all of them by default, at 4,300 and 10,000 triangles or as
 // told: CPU time beside the quality reached, and the distance of waist and hem from design/sewing.md's table.
 // --sheet draws every garment from three sides, at the finest size, into one picture. --other-bodies: on two other
 // bodies of the garment's family and on two of another one. growth: over 2.5k to 40k triangles, and how far the stretch
-// of each is from that of the finest.
+// of each is from that of the finest. halves: what it saves to move one half of what is symmetric, and how far the rest
+// is from that of both.
 #include <cstdio>
 #include <fstream>
 
@@ -30,7 +31,8 @@ struct Request {
   std::string body, sheet;
   std::optional<int> iterations;
   SelfContact self_contact = SelfContact::Auto;
-  bool other_bodies = false, growth = false;
+  bool whole = false;  // not half of what is symmetric
+  bool other_bodies = false, growth = false, halves = false;
 };
 
 Request parse(Words words) {
@@ -38,10 +40,12 @@ Request parse(Words words) {
   if (const auto triangles = words.integer("--triangles")) request.sizes = {*triangles};
   request.iterations = words.integer("--iterations");
   if (words.flag("--no-self-contact")) request.self_contact = SelfContact::Off;
+  request.whole = words.flag("--whole");
   request.body = words.text("--body").value_or("");
   request.sheet = words.text("--sheet").value_or("");
   request.other_bodies = words.flag("--other-bodies");
   request.growth = words.flag("growth");
+  request.halves = words.flag("halves");
   if (request.growth) request.sizes = {2500, 5000, 10000, 20000, 40000};
   request.garments = words.rest();
   if (request.garments.empty()) request.garments = test::shared_garment_names();
@@ -80,10 +84,11 @@ class DrapeBench {
     for (const std::string& garment : request_.garments)
       for (const std::string& body : bodies_for(request_, garment)) {
         times_.clear(), answers_.clear();
-        for (int triangles : request_.sizes) run_one(garment, body, triangles);
+        for (int triangles : request_.sizes)
+          request_.halves ? compare_halves(garment, body, triangles) : run_one(garment, body, triangles);
         if (request_.growth) add_growth(garment);
       }
-    table_.print(csv);
+    (request_.halves ? halves_ : table_).print(csv);
     if (request_.growth) growth_.print();
     std::printf("peak memory %.0f MB\n", peak_memory_mb());
     if (!request_.sheet.empty()) write_sheet();
@@ -103,10 +108,32 @@ class DrapeBench {
     growth_.add({garment, "all", "n^" + fixed(growth_exponent(sizes, times_), 2), "", "", "", ""});
   }
 
+  void compare_halves(const std::string& garment, const std::string& body, int triangles) {
+    const test::Dressing d = test::dress(garment, triangles, body);
+    DrapeOptions whole = d.options;
+    whole.halve = false;
+    DrapeResult off, on;
+    const double off_s = time_cpu(1, [&] { off = drape(d.pattern, d.mesh, d.body, whole, nullptr); }).median;
+    const double on_s = time_cpu(1, [&] { on = drape(d.pattern, d.mesh, d.body, d.options, nullptr); }).median;
+    const Eigen::VectorXd apart = (on.drape.nodes - off.drape.nodes).rowwise().norm();
+    const auto both = [](double a, double b, int digits) { return fixed(a, digits) + " " + fixed(b, digits); };
+    halves_.add({garment, body, std::to_string(d.mesh.triangle_count()), std::to_string(off.diagnostics.moved_nodes),
+                 std::to_string(on.diagnostics.moved_nodes), fixed(off_s, 2), fixed(on_s, 2), fixed(off_s / on_s, 2),
+                 both(off.diagnostics.iterations, on.diagnostics.iterations, 0),
+                 std::string(rest_name(off.quality.rest)) + " " + std::string(rest_name(on.quality.rest)),
+                 both(off.quality.residual, on.quality.residual, 2),
+                 both(1e3 * off.quality.deepest_node, 1e3 * on.quality.deepest_node, 2),
+                 both(1e3 * off.quality.deepest_edge, 1e3 * on.quality.deepest_edge, 2),
+                 both(off.quality.crossing_pairs, on.quality.crossing_pairs, 0),
+                 fixed(1e3 * std::sqrt(apart.squaredNorm() / static_cast<double>(apart.size())), 2),
+                 fixed(1e3 * apart.maxCoeff(), 2)});
+  }
+
   void run_one(const std::string& garment, const std::string& body, int triangles) {
     test::Dressing d = test::dress(garment, triangles, body);
     if (request_.iterations) d.options.iterations = *request_.iterations;
     d.options.self_contact = request_.self_contact;
+    d.options.halve = !request_.whole;
     const std::string count = std::to_string(d.mesh.triangle_count());
     const double start = cpu_seconds();
     try {
@@ -131,6 +158,7 @@ class DrapeBench {
                 body,
                 std::to_string(d.mesh.triangle_count()),
                 fixed(times_.back(), 2),
+                std::to_string(r.diagnostics.moved_nodes),
                 std::to_string(r.diagnostics.iterations),
                 std::string(rest_name(q.rest)),
                 fixed(q.residual, 2),
@@ -161,11 +189,13 @@ class DrapeBench {
   }
 
   const Request& request_;
-  Table table_{{"garment", "body",    "triangles", "CPU s",   "it",      "rest",    "residual",
-                "move mm", "weft %",  "warp %",    "node mm", "edge mm", "cross",   "crossing %",
-                "waist m", "diff mm", "lowest m",  "diff mm", "rung",    "peak MB", "findings"}};
+  Table table_{{"garment", "body",     "triangles", "CPU s",   "moved",   "it",      "rest",       "residual",
+                "move mm", "weft %",   "warp %",    "node mm", "edge mm", "cross",   "crossing %", "waist m",
+                "diff mm", "lowest m", "diff mm",   "rung",    "peak MB", "findings"}};
   Table growth_{
       {"garment", "triangles", "CPU s", "stretch rms % off the finest", "recovered", "position mm", "hem mm"}};
+  Table halves_{{"garment", "body", "triangles", "nodes", "moved", "both CPU s", "half CPU s", "ratio", "it", "rest",
+                 "residual", "node mm", "edge mm", "cross", "apart rms mm", "largest mm"}};
   std::vector<Answer> answers_;  // drapes of one garment on one body
   std::vector<Image> cells_;
   std::vector<double> times_;

@@ -47,6 +47,7 @@ class SkipBench {
   int run(const std::string& csv) {
     job_savings();
     registration();
+    half_of_the_garment();
     start_of_the_target_drape();
     self_contact();
     field();
@@ -94,6 +95,20 @@ class SkipBench {
     const double on = seconds([&] { known = register_bodies(reference, target); });
     add("bodies of one topology are not registered", off, on,
         "exact; registered: " + rms_mm(sought.map.mapped, known.map.mapped));
+  }
+
+  void half_of_the_garment() {
+    const auto& [pattern, mesh, wearer, worn, fit] = result().reference;
+    DrapeOptions whole_options = drape_options_;
+    whole_options.halve = false;
+    DrapeResult whole, half;
+    const double off = seconds([&] { whole = drape(pattern, mesh, wearer, whole_options, nullptr); });
+    const double on = seconds([&] { half = drape(pattern, mesh, wearer, drape_options_, nullptr); });
+    const bool halved = half.diagnostics.moved_nodes < whole.diagnostics.moved_nodes;
+    add("half of a symmetric garment moves, from flat", off, on,
+        halved ? rms_mm(whole.drape.nodes, half.drape.nodes) + ", residual " + fixed(whole.quality.residual, 2) +
+                     " -> " + fixed(half.quality.residual, 2)
+               : "not symmetric: " + same_bytes(whole.drape.nodes == half.drape.nodes));
   }
 
   void start_of_the_target_drape() {

@@ -36,6 +36,42 @@ TEST(RowSolver, SolvesThreeCoordinatesToSinglePrecision) {
   EXPECT_LT((solution - expected).norm(), 1e-5 * expected.norm());
 }
 
+// A grid's left half, its middle column held in x: what the whole grid answers to right-hand sides that are the same
+// on both sides, but for x, which is opposite.
+TEST(RowSolver, HoldsTheFirstCoordinateOfTheMiddleOfASymmetricSystem) {
+  constexpr int kSide = 21, kMiddle = kSide / 2, kHalf = kMiddle + 1;
+  const SparseMatrix whole = grid_matrix(kSide, 0.1);
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<int> held;
+  const auto row_of = [](int i) { return i / kSide * kHalf + std::min(i % kSide, kSide - 1 - i % kSide); };
+  for (int j = 0; j < whole.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(whole, j); it; ++it)
+      entries.emplace_back(std::max(row_of(it.index()), row_of(j)), std::min(row_of(it.index()), row_of(j)),
+                           0.5 * it.value());
+  SparseMatrix half(kSide * kHalf, kSide * kHalf);
+  half.setFromTriplets(entries.begin(), entries.end());
+  for (int r = 0; r < kSide; ++r) held.push_back(r * kHalf + kMiddle);
+
+  Points3 right = ramp(kSide * kSide), half_right = Points3::Zero(kSide * kHalf, 3);
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const int opposite = i - i % kSide + kSide - 1 - i % kSide;
+    if (opposite < i) right.row(i) << -right(opposite, 0), right(opposite, 1), right(opposite, 2);
+    if (opposite == i) right(i, 0) = 0;
+    half_right.row(row_of(i)) = (opposite == i ? 0.5 : 1.0) * right.row(std::min(i, opposite));
+  }
+  RowSolver whole_solver, half_solver;
+  ASSERT_TRUE(whole_solver.factor(whole));
+  ASSERT_TRUE(half_solver.factor(half, held));
+  Points3 expected(kSide * kSide, 3), solution(kSide * kHalf, 3);
+  whole_solver.solve(right, expected);
+  half_solver.solve(half_right, solution);
+  for (const int i : held) EXPECT_EQ(solution(i, 0), 0);
+  for (int i = 0; i < kSide * kSide; ++i) {
+    if (i % kSide > kMiddle) continue;
+    EXPECT_LT((solution.row(row_of(i)) - expected.row(i)).norm(), 1e-5 * expected.norm());
+  }
+}
+
 TEST(RowSolver, IsExactlySymmetric) {
   RowSolver solver;
   ASSERT_TRUE(solver.factor(grid_matrix(12, 0.01)));

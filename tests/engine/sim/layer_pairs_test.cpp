@@ -130,7 +130,7 @@ TEST(LayerPairs, LayersPressedHarderThanTheRepulsionSwellUntilTheyCarryItAndShri
         energy_of(pairs)(vertex_above(0.006, 0.006, std::max(gap, 1e-7)), gradient);
         (-gradient(0, 2) > load ? low : high) = gap;
       }
-      pairs.swell(vertex_above(0.006, 0.006, std::max(gap, 1e-7)), swelling);
+      pairs.swell(vertex_above(0.006, 0.006, std::max(gap, 1e-7)), {}, swelling);
     }
     return gap;
   };

@@ -34,6 +34,19 @@ TEST(Drape, TubeSkirtFromFlatClosesRoundATubeBody) {
   EXPECT_GT(result.quality.weft.p50, 0.04);
 }
 
+TEST(Drape, HalfOfASymmetricSkirtComesToRestWhereTheWholeDoes) {
+  const TightTube t;
+  DrapeOptions whole;
+  whole.halve = false;
+  const DrapeResult one = drape(t.pattern, t.mesh, t.body, {}, nullptr),
+                    both = drape(t.pattern, t.mesh, t.body, whole, nullptr);
+  EXPECT_EQ(both.diagnostics.moved_nodes, t.mesh.node_count);
+  EXPECT_LT(one.diagnostics.moved_nodes, 0.6 * t.mesh.node_count);
+  EXPECT_EQ(one.quality.rest, Rest::Converged);
+  EXPECT_LT((one.drape.nodes - both.drape.nodes).rowwise().norm().maxCoeff(), 1e-4);
+  EXPECT_NEAR(one.diagnostics.energy, both.diagnostics.energy, 1e-3 * both.diagnostics.energy);
+}
+
 TEST(Drape, PaperSolverKeepsTheTightTubeOnTheBody) {
   const TightTube t;
   DrapeOptions options;
