@@ -48,6 +48,7 @@ int bench_derive(const Arguments& arguments);
 int bench_drape(const Arguments& arguments);
 int bench_view(const Arguments& arguments);
 int bench_alter(const Arguments& arguments);
+int bench_where(const Arguments& arguments);
 int bench_worn(const Arguments& arguments);
 int bench_alteration(const Arguments& arguments);
 int bench_examples(const Arguments& arguments);

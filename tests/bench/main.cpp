@@ -65,6 +65,10 @@ const std::map<std::string, Entry>& benches() {
       {"pareto", {"run time against error: [SCENE...] [--points N:R,...] [--fine N] [--held] [--flat]", bench_pareto}},
       {"skip", {"each saving off and on: [SCENE] [--triangles N]", bench_skip}},
       {"threads", {"the same job several times at once: [GARMENT] [--bodies NAME] [--triangles N]", bench_threads}},
+      {"where",
+       {"where altered garments rest off their place, and whose sides are too long: [--triangles N] [--mu X] "
+        "GARMENT:BODY...",
+        bench_where}},
       {"view", {"look at a body and a drape: BODY.obj [DRAPE.obj] OUT.png [--stretch 0.1]", bench_view}},
   };
   return all;
