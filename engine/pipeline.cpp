@@ -27,7 +27,7 @@ Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>&
     if (auto given = read_garment_mesh(garment)) return std::move(*given);
     return mesh_panels(pattern.value, mesh_options, runner.progress());
   });
-  const auto worn = runner.run("drape", 23, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
+  const auto worn = runner.run("drape", 24, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
     const auto given = read_garment_drape(garment, wearer.value);
     if (!given) return drape(pattern.value, mesh.value, wearer.value, drape_options, runner.progress());
     DrapeOptions from_given = drape_options;

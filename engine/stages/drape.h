@@ -41,8 +41,9 @@ struct DrapeOptions {
   double shear_limit_deg = 12.0;                 // rho of the position-based solver, 0..45
   SelfContact self_contact = SelfContact::Auto;  // Off: cloth passes through cloth
   int first_rung = 0;  // of the retry ladder to begin with, 0 or 1: as designed, higher and firmer
-  // From flat, a finer mesh goes on from the drape of one of that many triangles, with its friction: of the many ways
-  // in which friction lets cloth rest, all meshes take the same one. 0, 500..200000; 0: every mesh from flat.
+  // From flat, a finer mesh goes on from the drape of one of that many triangles, or of meshes in between, with its
+  // friction: of the many ways in which friction and folds let cloth rest, all meshes take the same one. 0,
+  // 500..200000; 0: every mesh from flat.
   int coarse_triangles = 4000;
   bool halve = true;  // where both sides are the same, move one and reflect it (solver Default); false: move both
 };
