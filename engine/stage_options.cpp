@@ -34,9 +34,9 @@ std::optional<PresetError> measured_error(const AlterOptions& options) {
   if (garment_triangles(options) != garment_triangles(plain) || options.solver != SolverKind::Default)
     return std::nullopt;
   switch (options.preset) {
-    case Preset::Draft: return PresetError{0.0049, 4.17e-3, 1.94e-3};
-    case Preset::Standard: return PresetError{0.0023, 2.92e-3, 0.92e-3};
-    case Preset::Fine: return PresetError{0.0017, 2.84e-3, 0.68e-3};
+    case Preset::Draft: return PresetError{0.0049, 4.23e-3, 1.57e-3};
+    case Preset::Standard: return PresetError{0.0023, 2.90e-3, 1.38e-3};
+    case Preset::Fine: return PresetError{0.0016, 2.00e-3, 0.58e-3};
   }
   return std::nullopt;
 }
