@@ -36,7 +36,7 @@ std::optional<PresetError> measured_error(const AlterOptions& options) {
   switch (options.preset) {
     case Preset::Draft: return PresetError{0.0049, 4.23e-3, 1.57e-3};
     case Preset::Standard: return PresetError{0.0023, 2.90e-3, 1.38e-3};
-    case Preset::Fine: return PresetError{0.0016, 2.00e-3, 0.58e-3};
+    case Preset::Fine: return PresetError{0.0016, 2.01e-3, 0.58e-3};
   }
   return std::nullopt;
 }

@@ -11,9 +11,11 @@ namespace toile {
 
 namespace {
 
-// Meshes that a fine drape goes through: so many times the triangles of the one before, and none that the fine one does
-// not have this many times the triangles of.
-constexpr double kFiner = 2.5, kMuchFiner = 1.5;
+// A fine drape goes through meshes each so many times finer than the one before (1.6 and 2 move folds of fitted
+// garments at 10,000 or 20,000 triangles farther from those at 40,000) ...
+constexpr double kFiner = 2.5;
+// ... and from none that it has not this many times the triangles of.
+constexpr double kMuchFiner = 1.5;
 
 void check_options(const DrapeOptions& o) {
   const auto check = [](bool good, const char* name, const char* range) {

@@ -33,12 +33,12 @@ Draper::Draper(const Pattern& pattern, const PatternMesh& mesh, PreparedBody& bo
   thickness_ = options.thickness + cloth_.mean_edge * cloth_.mean_edge / (8 * options.sag_radius);
 }
 
-DrapeResult Draper::from_flat() {
+void Draper::from_flat() {
   prepare(placed_vertices(pattern_, mesh_));
   for (int rung = options_.first_rung;; ++rung) {
     attempt_from_flat(rung);
     const DrapeFinding* refused = refusal();
-    if (!refused) return result_;
+    if (!refused) return;
     if (rung == kLastRung)
       throw Error(ErrorCode::DrapeFailed, "garment",
                   "no acceptable drape on this body: " + refused->message +

@@ -20,7 +20,7 @@ class Draper {
   Draper(const Pattern& pattern, const PatternMesh& mesh, PreparedBody& body, const DrapeOptions& options,
          Progress* progress);
 
-  DrapeResult from_flat();
+  void from_flat();
   // From the end of the same garment from flat on a coarser mesh. False: a guard refuses the result.
   bool from_coarser(const Draper& coarse);
   DrapeResult from_start(Points3 start);  // #N x 3
