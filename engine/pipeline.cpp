@@ -127,7 +127,7 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
   const AlterPatternOptions alter_options = alter_options_of(options);
   auto ideal = derive_garment(garment, reference_body, target_body, options, runner);
   const auto& [pattern, mesh, wearer, worn, fit] = ideal.value.reference;
-  const auto altered = runner.run("alter_pattern", 25, key_of(ideal.key, alter_options), [&] {
+  const auto altered = runner.run("alter_pattern", 26, key_of(ideal.key, alter_options), [&] {
     return alter_pattern(pattern, mesh, ideal.value.derived.mesh.rest, alter_options, runner.progress(),
                          runner.at_once());
   });

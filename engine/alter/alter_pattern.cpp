@@ -158,9 +158,11 @@ void forget_tears(const Pattern& pattern, const std::vector<std::vector<Vec2>>& 
 // Where one of two mirror images is cut anew, so is the other: two sides sewn differently would show.
 void add_twins(const Pattern& pattern, const std::vector<std::optional<PanelTwin>>& twins, RecutPanels& anew) {
   for (const auto& [p, how] : RecutPanels(anew))
-    if (const auto& twin = twins[static_cast<std::size_t>(p)]; twin)
-      if (!pattern.panels[static_cast<std::size_t>(twin->panel)].locked)
-        anew.try_emplace(twin->panel, CutAnew{"as its mirror image", std::nullopt});
+    if (const auto& twin = twins[static_cast<std::size_t>(p)]; twin && twin->panel != p)
+      if (!pattern.panels[static_cast<std::size_t>(twin->panel)].locked) {
+        anew.try_emplace(twin->panel, CutAnew{"as its mirror image", {}, p});
+        anew[p].mirror = twin->panel;
+      }
 }
 
 void tell_cut_anew(const RecutPanels& anew, AlterPatternResult& result) {

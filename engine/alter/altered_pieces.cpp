@@ -100,7 +100,7 @@ bool Cutting::add_panel(int p) {
   }
   const std::string hopeless = try_panel(p, whole, true);
   if (hopeless.empty()) {
-    if (!known) recut_.emplace(p, CutAnew{problem, std::nullopt});
+    if (!known) recut_.emplace(p, CutAnew{problem, {}, -1});
     return true;
   }
   cut_.flags.push_back("panel " + panel.panel + " cannot be sewn: " + hopeless);
@@ -161,7 +161,7 @@ bool Cutting::all_meet() {
     const auto [shorter, longer] = std::minmax(lengths.first, lengths.second);
     if (longer - shorter <= std::max(kMostEased * longer, kMostEasedLength)) continue;
     if (pattern_.panels[static_cast<std::size_t>(p)].locked) continue;
-    if (recut_.emplace(p, CutAnew{"the edges of its pieces do not meet", std::nullopt}).second) meet = false;
+    if (recut_.emplace(p, CutAnew{"the edges of its pieces do not meet", {}, -1}).second) meet = false;
   }
   return meet;
 }
@@ -233,7 +233,7 @@ bool Cutting::all_sound() {
     sound = false;
     const int p = cut_.pieces[i].panel;
     const std::string problem = "the outline of a piece encloses nothing or touches itself";
-    if (recut_.emplace(p, CutAnew{problem, std::nullopt}).second) continue;
+    if (recut_.emplace(p, CutAnew{problem, {}, -1}).second) continue;
     cut_.flags.push_back("panel " + pattern_.panels[static_cast<std::size_t>(p)].name + " cannot be sewn: " + problem);
   }
   return sound;

@@ -17,6 +17,7 @@ struct PanelAlteration;
 struct CutAnew {
   std::string why;
   std::optional<PolygonPlace> in_own_cloth;  // from the target panel's frame to the original's; nothing: new cloth
+  int mirror = -1;                           // panel that is its mirror image: left and right are one operation
 };
 
 // By panel.

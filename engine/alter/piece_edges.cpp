@@ -19,7 +19,7 @@ struct Nearness {
 constexpr Nearness kAsCut = {6e-4, 1e-3, 1.0}, kAsDrawn = {6e-4, 2e-4, 2e-4}, kTrued = {2e-4, 2e-4, 1e-4};
 constexpr double kStraight = 2e-4;    // m
 constexpr double kSmooth = 8e-4;      // m: of a Bézier through the chain's points
-constexpr double kSameLength = 1e-4;  // m: of such a Bézier and the chain
+constexpr double kSameLength = 1e-4;  // m: of an edge and its chain
 constexpr double kPolyline = 5e-5;    // m: of the polyline where no Bézier follows
 constexpr double kFlat = 2e-5;        // m: of the chords an outline is tested by
 constexpr double kLeastChord = 2e-5;  // m between the ends of an edge: less is no edge
@@ -122,11 +122,15 @@ EdgeCurve curve_through(const std::vector<Vec2>& points) {
   return polyline_through(points);
 }
 
+Curve drawn_edge(const PieceEdges& edges, std::size_t k) {
+  return {edges.corners[k], edges.corners[(k + 1) % edges.corners.size()], edges.curves[k]};
+}
+
 // Whether the edges make an outline that encloses cloth and keeps clear of itself, each about as long as its chain.
 bool can_be_cut(const PieceEdges& edges) {
   std::vector<Vec2> outline;
   for (std::size_t k = 0; k < edges.corners.size(); ++k) {
-    const Curve curve{edges.corners[k], edges.corners[(k + 1) % edges.corners.size()], edges.curves[k]};
+    const Curve curve = drawn_edge(edges, k);
     if (!((curve.end - curve.start).norm() > kLeastChord)) return false;
     if (!(std::abs(curve_length(curve) - edges.lengths[k]) < kOtherLength + 0.1 * edges.lengths[k])) return false;
     const std::vector<Vec2> points = flatten_curve(curve, kFlat);
@@ -138,51 +142,59 @@ bool can_be_cut(const PieceEdges& edges) {
 class EdgeDrawer {
  public:
   EdgeDrawer(const PieceBorder& piece, const std::vector<const BorderChain*>& chains, const Panel* original)
-      : original_(original), near_(piece.trued ? kTrued : kAsDrawn) {
+      : original_(original), trued_(piece.trued), near_(piece.trued ? kTrued : kAsDrawn) {
     for (const BorderChain* chain : chains) {
-      points_.emplace_back();
-      for (const int v : chain->vertices) points_.back().push_back(piece.vertices[static_cast<std::size_t>(v)].rest);
+      border_.emplace_back();
+      for (const int v : chain->vertices) border_.back().push_back(piece.vertices[static_cast<std::size_t>(v)].rest);
       const int likely = chain->along.neighbour < 0 ? chain->along.track.edge : -1;
-      parts_.push_back(original ? original_part(*original, likely, points_.back(), near_) : OriginalPart{});
-      of_edge_.push_back(original ? original_part(*original, likely, points_.back(), kAsCut).edge : -1);
+      parts_.push_back(original ? original_part(*original, likely, border_.back(), near_) : OriginalPart{});
+      of_edge_.push_back(original ? original_part(*original, likely, border_.back(), kAsCut).edge : -1);
     }
+    as_border_.assign(border_.size(), false);
   }
 
   // Original curves, and smooth ones through the rest, can cross where the chains they stand for run close by each
-  // other; then the piece is drawn as its border runs.
+  // other; then the piece is drawn as its border runs. So are single edges of a trued piece that lost their length.
   PieceEdges run() {
-    PieceEdges smooth = start();
-    const std::size_t count = points_.size();
-    const std::vector<std::vector<Vec2>> border = points_;
-    for (std::size_t k = 0; k < count; ++k) smooth.corners.push_back(corner((k + count - 1) % count, k));
-    for (std::size_t k = 0; k < count; ++k) {
-      std::vector<Vec2>& points = points_[k];
-      points.front() = smooth.corners[k];
-      points.back() = smooth.corners[(k + 1) % count];
-      smooth.curves.push_back(parts_[k].edge >= 0 ? original_curve(k) : curve_through(points));
-    }
+    PieceEdges smooth = draw();
+    if (trued_ && follow_border_where_off(smooth)) smooth = draw();
     if (can_be_cut(smooth)) return smooth;
-    PieceEdges plain = start();
-    for (const std::vector<Vec2>& points : border) {
-      plain.corners.push_back(points.front());
-      plain.curves.push_back(polyline_through(points));
-    }
+    as_border_.assign(border_.size(), true);
+    PieceEdges plain = draw();
     plain.sound = can_be_cut(plain);
     return plain;
   }
 
  private:
-  PieceEdges start() const {
+  PieceEdges draw() const {
     PieceEdges edges;
     edges.of_edge = of_edge_;
-    for (const auto& points : points_) edges.lengths.push_back(length_of(points));
+    const std::size_t count = border_.size();
+    for (std::size_t k = 0; k < count; ++k) edges.corners.push_back(corner((k + count - 1) % count, k));
+    for (std::size_t k = 0; k < count; ++k) {
+      edges.lengths.push_back(length_of(border_[k]));
+      std::vector<Vec2> points = border_[k];
+      points.front() = edges.corners[k];
+      points.back() = edges.corners[(k + 1) % count];
+      if (as_border_[k])
+        edges.curves.push_back(polyline_through(points));
+      else
+        edges.curves.push_back(parts_[k].edge >= 0 ? original_curve(parts_[k], points) : curve_through(points));
+    }
     return edges;
+  }
+
+  // Whether an edge was drawn shorter or longer than its chain: corners are snapped to places.
+  bool follow_border_where_off(const PieceEdges& edges) {
+    for (std::size_t k = 0; k < border_.size(); ++k)
+      as_border_[k] = std::abs(curve_length(drawn_edge(edges, k)) - edges.lengths[k]) > kSameLength;
+    return std::find(as_border_.begin(), as_border_.end(), true) != as_border_.end();
   }
 
   // Where chain `before` ends and `after` begins: an original corner, or a place on an original edge.
   Vec2 corner(std::size_t before, std::size_t after) const {
-    const Vec2 here = points_[after].front();
-    if (!original_) return here;
+    const Vec2 here = border_[after].front();
+    if (!original_ || as_border_[before] || as_border_[after]) return here;
     const OriginalPart &ending = parts_[before], &beginning = parts_[after];
     if (ending.edge >= 0 || beginning.edge >= 0)
       for (const Vec2& known : original_->corners)
@@ -192,22 +204,23 @@ class EdgeDrawer {
     return here;
   }
 
-  EdgeCurve original_curve(std::size_t k) const {
-    const OriginalPart& part = parts_[k];
+  EdgeCurve original_curve(const OriginalPart& part, const std::vector<Vec2>& points) const {
     const Curve whole = edge_curve(*original_, part.edge);
     const auto at = [&](double t, const Vec2& place) {  // a corner stands for the whole edge
       if ((place - whole.start).norm() < 1e-9) return 0.0;
       return (place - whole.end).norm() < 1e-9 ? 1.0 : t;
     };
-    const double from = at(part.from, points_[k].front()), to = at(part.to, points_[k].back());
+    const double from = at(part.from, points.front()), to = at(part.to, points.back());
     return from < to ? part_of_curve(whole, from, to).shape : reversed(part_of_curve(whole, to, from)).shape;
   }
 
   const Panel* original_;
+  const bool trued_;
   const Nearness& near_;
-  std::vector<std::vector<Vec2>> points_;
+  std::vector<std::vector<Vec2>> border_;  // points of every chain
   std::vector<OriginalPart> parts_;
   std::vector<int> of_edge_;
+  std::vector<bool> as_border_;  // is drawn as its chain runs
 };
 
 }  // namespace

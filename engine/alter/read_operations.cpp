@@ -244,16 +244,15 @@ void list_pieces(const Pattern& pattern, std::vector<Job>& jobs, const std::vect
   }
 }
 
-// Panels that are not altered: one operation for those that have the cloth, one for those that need new cloth.
-TicketOperation cut_anew(const Pattern& pattern, const RecutPanels& recut, bool own_cloth,
+// A panel that is not altered, and its mirror image.
+TicketOperation cut_anew(const Pattern& pattern, const std::vector<int>& numbers, bool own_cloth,
                          const std::vector<PanelAlteration>& panels) {
   TicketOperation operation;
   operation.kind = OperationKind::CutAnew;
   operation.fabric = own_cloth ? FabricNeed::None : FabricNeed::NeedsFabric;
   std::vector<std::string> names;
   std::set<std::string> touches;
-  for (const auto& [number, anew] : recut) {
-    if (anew.in_own_cloth.has_value() != own_cloth) continue;
+  for (const int number : numbers) {
     const auto p = static_cast<std::size_t>(number);
     const Panel& panel = pattern.panels[p];
     for (const PanelEdge& edge : panel.edges)
@@ -274,6 +273,23 @@ TicketOperation cut_anew(const Pattern& pattern, const RecutPanels& recut, bool 
   return operation;
 }
 
+// First what has the cloth, then what needs new cloth.
+std::vector<TicketOperation> all_cut_anew(const Pattern& pattern, const RecutPanels& recut,
+                                          const std::vector<PanelAlteration>& panels) {
+  std::vector<TicketOperation> operations;
+  for (const bool own_cloth : {true, false})
+    for (const auto& [number, anew] : recut) {
+      if (anew.in_own_cloth.has_value() != own_cloth) continue;
+      const auto mirror = recut.find(anew.mirror);
+      const bool together = mirror != recut.end() && mirror->second.in_own_cloth.has_value() == own_cloth;
+      if (!together)
+        operations.push_back(cut_anew(pattern, {number}, own_cloth, panels));
+      else if (number < anew.mirror)
+        operations.push_back(cut_anew(pattern, {number, anew.mirror}, own_cloth, panels));
+    }
+  return operations;
+}
+
 int work_order(OperationKind kind) {  // new panels, darts, widths, hems
   if (kind == OperationKind::CutAnew) return -1;
   if (kind == OperationKind::DartNew || kind == OperationKind::DartDeepen) return 0;
@@ -287,9 +303,8 @@ void read_operations(const Pattern& pattern, const PatternMesh& mesh, const Torn
                      AlterPatternResult& result) {
   const auto partners = find_seam_partners(mesh);
   std::vector<Job> jobs;
-  for (const bool own_cloth : {true, false})
-    if (TicketOperation operation = cut_anew(pattern, recut, own_cloth, result.panels); !operation.sides.empty())
-      jobs.push_back({nullptr, {}, std::move(operation)});
+  for (TicketOperation& operation : all_cut_anew(pattern, recut, result.panels))
+    jobs.push_back({nullptr, {}, std::move(operation)});
   std::vector<bool> skip(result.panels.size(), false);
   for (const auto& [p, anew] : recut) skip[static_cast<std::size_t>(p)] = true;
   for (const bool inserts : {true, false}) {

@@ -151,11 +151,26 @@ TEST(SewAltered, WhatIsCutAnewOnTheLeftIsCutAnewOnTheRight) {
   options.max_tears_per_side = 0;
   for (const bool symmetric : {true, false}) {
     options.symmetric = symmetric;
-    const SewnPattern sewn = alter(pair, smaller_left, options).sewn;
-    ASSERT_EQ(sewn.pieces.size(), 2u);
-    EXPECT_TRUE(sewn.pieces[0].recut);
-    EXPECT_EQ(sewn.pieces[1].recut, symmetric);
+    const AlterPatternResult result = alter(pair, smaller_left, options);
+    ASSERT_EQ(result.sewn.pieces.size(), 2u);
+    EXPECT_TRUE(result.sewn.pieces[0].recut);
+    EXPECT_EQ(result.sewn.pieces[1].recut, symmetric);
+    ASSERT_EQ(result.ticket.operations.size(), 1u);
+    EXPECT_EQ(result.ticket.operations[0].sides.size(), symmetric ? 2u : 1u);
   }
+}
+
+TEST(SewAltered, EveryPanelCutAnewThatIsNoMirrorImageIsAnOperationOfItsOwn) {
+  GridGarment pair = grid_garment({{"front", 0.4, 0.6, 20, 30, 0.0}, {"back", 0.4, 0.6, 20, 30, 0.0}});
+  for (Panel& panel : pair.pattern.panels)
+    for (PanelEdge& edge : panel.edges) edge.locked = true;
+  AlterPatternOptions options;
+  options.max_tears_per_side = 0;
+  const AlterPatternResult result = alter(
+      pair, [](int, const Vec2& p) { return Vec2(0.6 * p.x(), 0.7 * p.y()); }, options);
+  ASSERT_EQ(result.ticket.operations.size(), 2u);
+  EXPECT_EQ(result.ticket.operations[0].where, "front");
+  EXPECT_EQ(result.ticket.operations[1].where, "back");
 }
 
 // Both plies of every seam as drawn, against what the target eases there.
