@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/alter/alter_pattern.h"
+#include "engine/alter_in_loop.h"
 #include "engine/core/archive_values.h"
 #include "engine/derive_in_loop.h"
 #include "engine/drape_altered.h"
@@ -114,10 +115,10 @@ void archive(A& a, DerivedPattern& v) {
 
 template <class A>
 void archive(A& a, AlterPatternOptions& v) {
-  auto& [max_tears_per_side, seam_preference, stretch_limit, l_shapes, symmetric, choice, mesh_edge_cuts,
+  auto& [max_tears_per_side, seam_preference, stretch_limit, planned_share, l_shapes, symmetric, choice, mesh_edge_cuts,
          cut_smoothness, least_strip, least_change, least_allowance_left] = v;
-  a(max_tears_per_side, seam_preference, stretch_limit, l_shapes, symmetric, choice, mesh_edge_cuts, cut_smoothness,
-    least_strip, least_change, least_allowance_left);
+  a(max_tears_per_side, seam_preference, stretch_limit, planned_share, l_shapes, symmetric, choice, mesh_edge_cuts,
+    cut_smoothness, least_strip, least_change, least_allowance_left);
 }
 template <class A>
 void archive(A& a, TicketSide& v) {
@@ -210,10 +211,30 @@ void archive(A& a, SewnPattern& v) {
 }
 template <class A>
 void archive(A& a, AlterPatternResult& v) {
-  auto& [panels, ticket, original_area, target_area, inserted_area, removed_area, area_imbalance, insertion_rounds,
-         removal_rounds, trials, reverted, dropped_regions, sewn, flags] = v;
-  a(panels, ticket, original_area, target_area, inserted_area, removed_area, area_imbalance, insertion_rounds,
-    removal_rounds, trials, reverted, dropped_regions, sewn, flags);
+  auto& [panels, ticket, original_area, target_area, inserted_area, removed_area, area_imbalance, planned_share,
+         strain_left, insertion_rounds, removal_rounds, trials, reverted, dropped_regions, sewn, flags] = v;
+  a(panels, ticket, original_area, target_area, inserted_area, removed_area, area_imbalance, planned_share, strain_left,
+    insertion_rounds, removal_rounds, trials, reverted, dropped_regions, sewn, flags);
+}
+template <class A>
+void archive(A& a, AlterInLoopOptions& v) {
+  auto& [max_plans, share_of_ideal, farther_off, check_triangles] = v;
+  a(max_plans, share_of_ideal, farther_off, check_triangles);
+}
+template <class A>
+void archive(A& a, TriedPlan& v) {
+  auto& [share, operations, faults, problem, triangles, position] = v;
+  a(share, operations, faults, problem, triangles, position);
+}
+template <class A>
+void archive(A& a, PlacedPlans& v) {
+  auto& [ideal, allowed, plans, kept] = v;
+  a(ideal, allowed, plans, kept);
+}
+template <class A>
+void archive(A& a, AlterInLoopResult& v) {
+  auto& [altered, place] = v;
+  a(altered, place);
 }
 
 }  // namespace toile

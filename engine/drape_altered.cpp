@@ -24,19 +24,19 @@ struct FlatPanel {
   }
 };
 
-class AlteredDraper {
+// Where the cloth of the sewn pieces is in the scene's patterns.
+class ClothPlaces {
  public:
-  AlteredDraper(const SewnPattern& sewn, const PatternMesh& original, const FittingMap& reference_fit,
-                const DerivedPattern& derived)
-      : sewn_(sewn), reference_fit_(reference_fit), derived_(derived) {
-    for (int p = 0; p < static_cast<int>(original.panels.size()); ++p) {
-      original_.emplace_back(original, p);
-      target_.emplace_back(derived.mesh, p);
+  ClothPlaces(const AlterationScene& scene, const SewnPattern& sewn)
+      : sewn_(sewn), reference_fit_(scene.reference_fit) {
+    for (int p = 0; p < static_cast<int>(scene.original.panels.size()); ++p) {
+      original_.emplace_back(scene.original, p);
+      target_.emplace_back(scene.target, p);
     }
     for (const SewnPiece& piece : sewn.pieces) flat_.emplace_back(piece.map.rest, piece.map.triangles);
-    nodes_.resize(derived.mesh.vertex_count(), 3);
-    for (int v = 0; v < derived.mesh.vertex_count(); ++v)
-      nodes_.row(v) = derived.drape.drape.nodes.row(derived.mesh.node_of_vertex[static_cast<std::size_t>(v)]);
+    nodes_.resize(scene.target.vertex_count(), 3);
+    for (int v = 0; v < scene.target.vertex_count(); ++v)
+      nodes_.row(v) = scene.start.nodes.row(scene.target.node_of_vertex[static_cast<std::size_t>(v)]);
   }
 
   Drape start(const PatternMesh& mesh) const {
@@ -88,7 +88,6 @@ class AlteredDraper {
 
   const SewnPattern& sewn_;
   const FittingMap& reference_fit_;
-  const DerivedPattern& derived_;
   std::vector<FlatPanel> original_, target_;
   std::vector<FlatLocator> flat_;  // per piece
   Points3 nodes_;                  // of the target pattern's vertices
@@ -96,34 +95,40 @@ class AlteredDraper {
 
 }  // namespace
 
-DrapedAlteration drape_altered(const SewnPattern& sewn, const PatternMesh& original, const FittingMap& reference_fit,
-                               const DerivedPattern& derived, const Body& target_body, const DrapeOptions& options,
-                               Progress* progress) {
+DrapedAlteration drape_altered(const AlterationScene& scene, const SewnPattern& sewn, double edge_length,
+                               DrapeSeries& on_target, const DrapeOptions& options, Progress* progress) {
   DrapedAlteration result;
   if (sewn.pieces.empty()) {
     result.problem = sewn.flags.empty() ? "there is no sewn pattern" : sewn.flags.front();
     return result;
   }
-  const AlteredDraper draper(sewn, original, reference_fit, derived);
-  try {  // an alteration that cannot be sewn is a finding, not a failure of the job
+  Drape start;
+  const ClothPlaces places(scene, sewn);
+  try {  // an alteration that cannot be sewn or worn is a finding, not a failure of the job
     validate_pattern(sewn.pattern);
     MeshPanelsOptions mesh_options;
-    mesh_options.edge_length = original.target_edge_length;
+    mesh_options.edge_length = edge_length;
     result.mesh = mesh_panels(sewn.pattern, mesh_options, progress);
+    start = places.start(result.mesh);
+    result.drape = on_target.drape_from(sewn.pattern, result.mesh, start, options, progress);
   } catch (const Error& error) {
     if (error.code != ErrorCode::GarmentInvalid && error.code != ErrorCode::SeamInvalid &&
-        error.code != ErrorCode::LimitExceeded)
+        error.code != ErrorCode::LimitExceeded && error.code != ErrorCode::DrapeFailed)
       throw;
     result.problem = error.what();
     result.mesh = {};
     return result;
   }
-  const Drape start = draper.start(result.mesh);
-  result.drape = drape_from(sewn.pattern, result.mesh, target_body, start, options, progress);
   result.fit = build_fitting_map(result.mesh, result.drape.drape);
-  result.reference = draper.wanted(result.mesh, result.fit);
+  result.reference = places.wanted(result.mesh, result.fit);
   result.position = compare_positions(start.nodes, result.drape.drape.nodes);
   return result;
+}
+
+DrapedAlteration drape_altered(const AlterationScene& scene, const SewnPattern& sewn, const DrapeOptions& options,
+                               Progress* progress) {
+  DrapeSeries on_target(scene.body);
+  return drape_altered(scene, sewn, scene.original.target_edge_length, on_target, options, progress);
 }
 
 }  // namespace toile

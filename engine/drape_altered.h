@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drape the altered garment on the target body, its insertions sewn in, and hold its fit against the reference.
 //
-// The sewn pattern is meshed as any other; every vertex starts where the target pattern's drape has its place in the
+// The sewn pattern is meshed as any other; every vertex starts where a drape of the target pattern has its place in the
 // wanted panel. Kept cloth is compared with the same place of the original cloth on the reference body, an insertion
 // with the cloth that the target pattern has there.   Source: [Eggler2024, Sec. 8, Fig. 16].  SI units.
 #pragma once
 
 #include "engine/alter/sewn_pattern.h"
-#include "engine/derive_in_loop.h"
+#include "engine/stages/compare_fits.h"
+#include "engine/stages/drape_series.h"
 
 namespace toile {
 
@@ -17,12 +18,23 @@ struct DrapedAlteration {
   DrapeResult drape;
   FittingMap fit;
   FittingMap reference;         // what the fit of each triangle is to be
-  PositionDifference position;  // from where the target pattern's drape has the same cloth
+  PositionDifference position;  // from where it started
 };
 
-// `original`: the mesh of the original pattern and its fit on the reference body.
-DrapedAlteration drape_altered(const SewnPattern& sewn, const PatternMesh& original, const FittingMap& reference_fit,
-                               const DerivedPattern& derived, const Body& target_body, const DrapeOptions& options,
+// What altered garments are held against.
+struct AlterationScene {
+  const PatternMesh& original;  // of the original pattern
+  const FittingMap& reference_fit;
+  const PatternMesh& target;  // of the target pattern
+  const Drape& start;         // of the target pattern on `body`
+  const Body& body;
+};
+
+// `edge_length`: of the mesh, m. `on_target`: on the scene's body.
+DrapedAlteration drape_altered(const AlterationScene& scene, const SewnPattern& sewn, double edge_length,
+                               DrapeSeries& on_target, const DrapeOptions& options, Progress* progress = nullptr);
+// Alone, on a mesh as fine as the original's.
+DrapedAlteration drape_altered(const AlterationScene& scene, const SewnPattern& sewn, const DrapeOptions& options,
                                Progress* progress = nullptr);
 
 }  // namespace toile

@@ -295,6 +295,7 @@ Record AlterationFiles::result() const {
   quality.add("reference_drape", quality_record(r_.reference.drape.quality));
   if (r_.before) quality.add("target_drape_before", quality_record(r_.before->quality));
   quality.add("target_pattern_drape", quality_record(r_.derived.drape.quality))
+      .add("altered_place", place_record(r_.place))
       .add("area_imbalance", r_.altered.area_imbalance)
       .add("flags", Record::Value(r_.altered.flags));
   if (fits_.after) quality.add("target_drape_after", quality_record(r_.after->drape.quality));

@@ -125,22 +125,27 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
 AlterResult alter_garment(const GarmentInput& garment, const BodyInput& reference_body, const BodyInput& target_body,
                           const AlterOptions& options, StageRunner& runner) {
   const AlterPatternOptions alter_options = alter_options_of(options);
+  const DrapeOptions drape_options = drape_options_of(options);
+  const AlterInLoopOptions plan_options = plan_options_of(options);
   auto ideal = derive_garment(garment, reference_body, target_body, options, runner);
   const auto& [pattern, mesh, wearer, worn, fit] = ideal.value.reference;
-  const auto altered = runner.run("alter_pattern", 26, key_of(ideal.key, alter_options), [&] {
-    return alter_pattern(pattern, mesh, ideal.value.derived.mesh.rest, alter_options, runner.progress(),
-                         runner.at_once());
+  const DerivedPattern& derived = ideal.value.derived;
+  const auto scene_from = [&](const Drape& start) {
+    return AlterationScene{mesh, fit, derived.mesh, start, ideal.value.target_body};
+  };
+  auto altered = runner.run("alter_pattern", 27, key_of(ideal.key, alter_options, drape_options, plan_options), [&] {
+    return alter_in_loop(pattern, scene_from(ideal.value.transported.drape), derived.drape.drape, alter_options,
+                         drape_options, plan_options, runner.progress(), runner.at_once());
   });
+  auto& [alteration, place] = altered.value;
   if (!wants_after(options)) {
     runner.skip("drape_altered");
-    return {std::move(ideal.value), altered.value, {}};
+    return {std::move(ideal.value), std::move(alteration), std::move(place), {}};
   }
-  const DrapeOptions drape_options = drape_options_of(options);
-  const auto after = runner.run("drape_altered", 20, key_of(altered.key, ideal.key, drape_options), [&] {
-    return drape_altered(altered.value.sewn, mesh, fit, ideal.value.derived, ideal.value.target_body, drape_options,
-                         runner.progress());
+  auto after = runner.run("drape_altered", 20, key_of(altered.key, ideal.key, drape_options), [&] {
+    return drape_altered(scene_from(derived.drape.drape), alteration.sewn, drape_options, runner.progress());
   });
-  return {std::move(ideal.value), altered.value, after.value};
+  return {std::move(ideal.value), std::move(alteration), std::move(place), std::move(after.value)};
 }
 
 }  // namespace toile

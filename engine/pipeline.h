@@ -6,11 +6,10 @@
 // Source: [Eggler2024, Alg. 1].
 #pragma once
 
-#include "engine/alter/alter_pattern.h"
+#include "engine/alter_in_loop.h"
 #include "engine/bodies/register_bodies.h"
 #include "engine/core/options.h"
 #include "engine/derive_in_loop.h"
-#include "engine/drape_altered.h"
 #include "engine/pipeline_inputs.h"
 #include "engine/stage_runner.h"
 #include "engine/stages/build_fitting_map.h"
@@ -42,6 +41,7 @@ struct DerivedGarment {
 
 struct AlterResult : DerivedGarment {
   AlterPatternResult altered;             // how the original cloth becomes the ideal pattern
+  PlacedPlans place;                      // how the altered garment lay, tried on, plan by plan
   std::optional<DrapedAlteration> after;  // the altered garment on the target body, when an output needs it
 };
 

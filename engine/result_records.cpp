@@ -145,6 +145,8 @@ Record alteration_record(const AlterPatternResult& altered) {
       .add("inserted_area_cm2", altered.inserted_area * kCm2)
       .add("removed_area_cm2", altered.removed_area * kCm2)
       .add("area_imbalance", altered.area_imbalance)
+      .add("planned_share", altered.planned_share)
+      .add("strain_left", altered.strain_left)
       .add("insertion_rounds", altered.insertion_rounds)
       .add("removal_rounds", altered.removal_rounds)
       .add("trials", altered.trials)
@@ -154,6 +156,26 @@ Record alteration_record(const AlterPatternResult& altered) {
       .add("sewing_flags", Record::Value(altered.sewn.flags))
       .add("panels", std::move(panels));
   return record;
+}
+
+Record place_record(const PlacedPlans& place) {
+  std::vector<Record> plans;
+  for (const TriedPlan& plan : place.plans) {
+    Record record;
+    record.add("share_of_stretch_limit", plan.share).add("operations", plan.operations).add("faults", plan.faults);
+    if (plan.problem.empty())
+      record.add("triangles", plan.triangles).add("position_mm", plan.position * kMmPerMetre);
+    else
+      record.add("problem", plan.problem);
+    plans.push_back(std::move(record));
+  }
+  Record record;
+  record.add("in_place", place.in_place(place.kept_plan()));
+  if (place.kept_plan().problem.empty()) record.add("position_mm", place.kept_plan().position * kMmPerMetre);
+  return record.add("ideal_mm", place.ideal * kMmPerMetre)
+      .add("allowed_mm", place.allowed * kMmPerMetre)
+      .add("kept_plan", place.kept)
+      .add("plans", std::move(plans));
 }
 
 Record after_record(const DrapedAlteration& after) {

@@ -12,6 +12,7 @@ Record drape_record(const DrapeResult& result);  // quality and diagnostics
 Record fit_record(const Pattern& pattern, const FitComparison& comparison);
 Record derivation_record(const DerivedPattern& derived);
 Record alteration_record(const AlterPatternResult& altered);
+Record place_record(const PlacedPlans& place);
 Record after_record(const DrapedAlteration& after);
 Record edges_record(const FitPatternEdgesResult& edges);
 

@@ -58,6 +58,12 @@ DeriveInLoopOptions loop_options_of(const AlterOptions& options) {
   return loop;
 }
 
+AlterInLoopOptions plan_options_of(const AlterOptions& options) {
+  AlterInLoopOptions loop;
+  loop.max_plans = options.alteration_plans;
+  return loop;
+}
+
 AlterPatternOptions alter_options_of(const AlterOptions& options) {
   AlterPatternOptions alter;
   alter.max_tears_per_side = options.max_tears_per_side;

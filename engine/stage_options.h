@@ -2,7 +2,7 @@
 // What the options of a job mean to each stage.
 #pragma once
 
-#include "engine/alter/alter_pattern.h"
+#include "engine/alter_in_loop.h"
 #include "engine/core/options.h"
 #include "engine/derive_in_loop.h"
 #include "engine/stages/mesh_panels.h"
@@ -15,6 +15,7 @@ DerivePatternOptions derive_options_of(const AlterOptions& options);
 // The plane whose two sides of the pattern are kept alike; empty: they need not be.
 std::optional<MirrorPlane> mirror_plane_of(const AlterOptions& options, const Pattern& pattern);
 DeriveInLoopOptions loop_options_of(const AlterOptions& options);
+AlterInLoopOptions plan_options_of(const AlterOptions& options);
 AlterPatternOptions alter_options_of(const AlterOptions& options);
 
 // How far a preset's answer is from that of the same job with 40,000 triangles and a residual of 0.1: the worst of the

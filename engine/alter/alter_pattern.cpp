@@ -236,6 +236,17 @@ void judge_by(double stretch_limit, TornPattern& torn) {
     }
 }
 
+// The most strain any panel keeps over what is allowed; one that is cut anew keeps none.
+double strain_left(const AlterPatternResult& result, const RecutPanels& anew, double stretch_limit) {
+  double left = 0.0;
+  for (std::size_t p = 0; p < result.panels.size(); ++p) {
+    if (anew.contains(static_cast<int>(p))) continue;
+    for (const PanelTearing* pass : {&result.panels[p].insertion_pass, &result.panels[p].removal_pass})
+      left = std::max(left, share_of_limit(pass->after, stretch_limit));
+  }
+  return left;
+}
+
 // Alters with tears that are planned with `share` of the allowed stretch.
 AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
                            const CoarsePattern& coarse, const AlterPatternOptions& options, double share,
@@ -257,6 +268,7 @@ AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, cons
   judge_by(options.stretch_limit, inserting);
   judge_by(options.stretch_limit, removing);
   AlterPatternResult result;
+  result.planned_share = share;
   result.insertion_rounds = inserting.rounds;
   result.removal_rounds = removing.rounds;
   result.trials = inserting.trials + removing.trials;
@@ -291,6 +303,7 @@ AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, cons
     add_twins(pattern, twins, anew);
     if (anew.size() == known) break;
   }
+  result.strain_left = strain_left(result, anew, options.stretch_limit);
   sum_up(anew, options.stretch_limit, result);
   tell_cut_anew(anew, result);
   tell_ticket(result.sewn, result.ticket);
@@ -298,12 +311,11 @@ AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, cons
   return result;
 }
 
-// Flags, and one more where strain adds up to too much area.
+}  // namespace
+
 std::size_t faults_of(const AlterPatternResult& result) {
   return result.flags.size() + result.sewn.flags.size() + (result.area_imbalance > kMostImbalance);
 }
-
-}  // namespace
 
 AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
                                  const AlterPatternOptions& options, Progress* progress, bool at_once) {
@@ -312,9 +324,10 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
   const auto with = [&](double share) {
     return altered(pattern, mesh, target_rest, coarse, options, share, progress, at_once);
   };
-  AlterPatternResult result = with(1.0);
+  AlterPatternResult result = with(options.planned_share);
   // Where something is wrong, less strain may mend it with as many operations.
-  for (double share = kStricter; share >= kStrictest && faults_of(result) > 0; share *= kStricter) {
+  for (double share = kStricter * options.planned_share; share >= kStrictest && faults_of(result) > 0;
+       share *= kStricter) {
     AlterPatternResult strict = with(share);
     if (faults_of(strict) < faults_of(result) && strict.ticket.operations.size() <= result.ticket.operations.size())
       result = std::move(strict);

@@ -26,6 +26,7 @@ struct AlterPatternOptions {
   int max_tears_per_side = 1;    // Theta, cuts into one side over the whole run, 0-5
   double seam_preference = 1.5;  // gamma, favours existing seams over new cuts, >= 1
   double stretch_limit = 0.03;   // mu, stretch the altered cloth may keep, dimensionless, > 0
+  double planned_share = 1.0;    // of mu that tears are planned with; what is left is judged by all of it, > 0 to 1
   bool l_shapes = false;         // leave L- and T-shaped insertions in one piece; else they become strips
   bool symmetric = true;  // what is done on the wearer's left is done on the right, where panels are mirror images
   TearChoice choice = TearChoice::Release;
@@ -60,6 +61,8 @@ struct AlterPatternResult {
   Ticket ticket;                        // names of garment and bodies are the caller's to fill in
   double original_area = 0.0, target_area = 0.0, inserted_area = 0.0, removed_area = 0.0;  // m^2
   double area_imbalance = 0.0;  // |original + inserted - removed - target| / target
+  double planned_share = 1.0;   // of the allowed stretch, that the tears were planned with
+  double strain_left = 0.0;     // over what is allowed, of the panel with the most (share_of_limit); not those cut anew
   int insertion_rounds = 0, removal_rounds = 0, trials = 0, reverted = 0, dropped_regions = 0;
   SewnPattern sewn;                // the altered garment, ready to be cut
   std::vector<std::string> flags;  // panels where the stretch limit was not reached, with the reason
@@ -70,5 +73,8 @@ struct AlterPatternResult {
 AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
                                  const AlterPatternOptions& options = {}, Progress* progress = nullptr,
                                  bool at_once = false);
+
+// Flags, and one more where strain adds up to too much area.
+std::size_t faults_of(const AlterPatternResult& result);
 
 }  // namespace toile

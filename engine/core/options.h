@@ -29,8 +29,9 @@ struct AlterOptions {
   double min_change_mm = 4.0;  // changes below are marked, 0..20                                [ISO20685]
   SymmetryMode symmetry = SymmetryMode::Auto;
   bool pin_extremities =
-      false;               // hold cuffs and hems where the body map puts them while draping [Eggler2024, Sec. 4.1]
-  int physics_passes = 3;  // at most, in the derivation, 1..5
+      false;                 // hold cuffs and hems where the body map puts them while draping [Eggler2024, Sec. 4.1]
+  int physics_passes = 3;    // at most, in the derivation, 1..5
+  int alteration_plans = 3;  // at most, until the altered garment lies in its place, 1..5
   SolverKind solver = SolverKind::Default;
   double fibre_slack = 0.0;       // delta, of the position-based solver: stretch a fibre gives for nothing, 0..0.2
   double shear_limit_deg = 12.0;  // rho, of the position-based solver, 0..45

@@ -79,6 +79,7 @@ void visit_options(Options& options, Visitor& visit) {
       {{SymmetryMode::Auto, "auto"}, {SymmetryMode::Plane, "plane"}, {SymmetryMode::Off, "off"}});
   visit.boolean("pin_extremities", options.pin_extremities);
   visit.integer("physics_passes", options.physics_passes, 1, 5);
+  visit.integer("alteration_plans", options.alteration_plans, 1, 5);
   visit.template choice<SolverKind>(
       "solver", options.solver,
       {{SolverKind::Default, "default"}, {SolverKind::Pbd, "pbd"}, {SolverKind::Newton, "newton"}});

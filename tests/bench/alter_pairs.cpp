@@ -102,18 +102,24 @@ AlterFit fit_of(const DerivedGarment& derived, const AlterPatternResult& result,
   fit.stretch_before = compare_fits(mesh, derived.reference.fit, derived.fit_before).whole.rms_stretch;
   fit.stretch_ideal = compare_fits(mesh, derived.reference.fit, derived.derived.fit).whole.rms_stretch;
   fit.position_ideal = compare_positions(derived.transported.drape.nodes, derived.derived.drape.drape.nodes).rms;
-  const auto drape_beside = [&](const DerivedPattern& wanted) {
-    return drape_altered(result.sewn, mesh, derived.reference.fit, wanted, derived.target_body,
-                         drape_options_of(options));
+  const auto drape_at = [&](const Drape& start) {
+    return drape_altered(scene_of(derived, start), result.sewn, drape_options_of(options));
   };
-  const DrapedAlteration after = drape_beside(derived.derived);
+  const DrapedAlteration after = drape_at(derived.derived.drape.drape);
   fit.problem = after.problem;
   if (!fit.problem.empty()) return fit;
   fit.stretch_after = compare_fits(after.mesh, after.reference, after.fit).whole.rms_stretch;
-  DerivedPattern carried = derived.derived;
-  carried.drape.drape.nodes = derived.transported.drape.nodes;
-  fit.position_after = drape_beside(carried).position.rms;
+  fit.position_after = drape_at(derived.transported.drape).position.rms;
   return fit;
+}
+
+AlterationScene scene_of(const DerivedGarment& derived, const Drape& start) {
+  return {derived.reference.mesh, derived.reference.fit, derived.derived.mesh, start, derived.target_body};
+}
+
+AlterInLoopResult alter_derived(const DerivedGarment& derived, const AlterOptions& job) {
+  return alter_in_loop(derived.reference.pattern, scene_of(derived, derived.transported.drape),
+                       derived.derived.drape.drape, alter_options_of(job), drape_options_of(job), plan_options_of(job));
 }
 
 Image picture_of(const AlterPair& pair, const AlterPatternResult& result, int width) {

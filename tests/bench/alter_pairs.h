@@ -26,7 +26,9 @@ struct AlterOutcome {
   double narrowest = 0.0;                          // m, of what is let in and needs cloth; 0 if nothing is
   double balance = 0.0;                            // of areas, relative
   double plies = 0.0;                              // m, the most that both sides of a seam differ from what is eased
-  double seconds = 0.0;                            // of CPU, the alteration alone
+  double seconds = 0.0;                            // of CPU, one plan alone
+  double all_seconds = 0.0;                        // of CPU, all plans with their drapes
+  std::size_t plans = 0;                           // tried
 };
 AlterOutcome outcome_of(const AlterPatternResult& result);
 
@@ -38,6 +40,11 @@ struct AlterFit {
   double position_ideal = 0.0, position_after = 0.0;
 };
 AlterFit fit_of(const DerivedGarment& derived, const AlterPatternResult& result, const AlterOptions& options);
+
+// As a job alters it.
+AlterInLoopResult alter_derived(const DerivedGarment& derived, const AlterOptions& job);
+// What its altered garment is held against, draped from `start`.
+AlterationScene scene_of(const DerivedGarment& derived, const Drape& start);
 
 // Every panel as it is cut (left) and as it will be (right).
 Image picture_of(const AlterPair& pair, const AlterPatternResult& result, int width);

@@ -123,15 +123,11 @@ void print_lengths(const Where& where) {
 
 void tell(const AlterPair& pair, const AlterOptions& job, StageCache* stages) {
   const DerivedGarment derived = derive_pair(pair.garment, pair.body, job, stages);
-  const AlterPatternResult altered = alter_pattern(derived.reference.pattern, derived.reference.mesh,
-                                                   derived.derived.mesh.rest, alter_options_of(job));
-  DerivedPattern wanted = derived.derived;
-  wanted.drape.drape.nodes = derived.transported.drape.nodes;
+  const AlterPatternResult altered = alter_derived(derived, job).altered;
   const auto drape = [&](bool keep) {
     DrapeOptions options = drape_options_of(job);
     options.keep_drape = keep;
-    return drape_altered(altered.sewn, derived.reference.mesh, derived.reference.fit, wanted, derived.target_body,
-                         options);
+    return drape_altered(scene_of(derived, derived.transported.drape), altered.sewn, options);
   };
   const Where where{derived, altered, drape(true), drape(false)};
   std::printf("%s for %s: %zu operations, ", pair.garment.c_str(), pair.body.c_str(), altered.ticket.operations.size());

@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Slow, AlterGarments,
                                          std::pair{"skirt_pencil", "ggg_small_female"}));
 
 // A skirt whose waistband sides alone do not fit within three of them where 2 % of stretch may stay: a cut is cheaper
-// until seams are preferred.
+// until seams are preferred. Of one plan, as it is before it is tried on.
 TEST(SlowAlterGarments, AHigherPreferenceForSeamsCutsLess) {
   TOILE_REQUIRE_SHARED_DATA();
   const DerivedGarment derived = derive("skirt_pencil", "ggg_mean_female", 4000);

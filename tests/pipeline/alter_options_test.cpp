@@ -43,5 +43,14 @@ TEST(AlterationControls, ArriveFromADocumentAndFromAFlag) {
   }
 }
 
+TEST(AlterationControls, HowManyPlansAreTriedArrives) {
+  AlterOptions given;
+  ASSERT_NE(plan_options_of(given).max_plans, 2);
+  set_option(given, "alteration_plans", "2");
+  EXPECT_EQ(plan_options_of(given).max_plans, 2);
+  const std::string text = "{\"alteration_plans\": 2}";
+  EXPECT_EQ(plan_options_of(read_options(Bytes(text.begin(), text.end()))).max_plans, 2);
+}
+
 }  // namespace
 }  // namespace toile

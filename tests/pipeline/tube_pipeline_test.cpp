@@ -2,7 +2,9 @@
 // The first thread through the whole house: a tube skirt, whose target pattern is known.
 #include <gtest/gtest.h>
 
+#include "engine/archive_stages.h"
 #include "engine/outputs.h"
+#include "engine/result_records.h"
 #include "tests/support/shared_data.h"
 
 namespace toile {
@@ -165,6 +167,37 @@ TEST(TubePipeline, DrapesTheGarmentAsItIsOnlyWhereAFileTellsOfIt) {
   EXPECT_TRUE(draped);
   EXPECT_FALSE(draped_for_ticket);
   EXPECT_EQ(area_of_ticket, area);
+}
+
+TEST(TubePipeline, AltersAlikeWhateverFilesAreAskedFor) {
+  const auto altered = [](const std::string& output) {
+    AlterOptions options = small();
+    options.outputs = {output};
+    StageRunner runner(nullptr, nullptr, kAlterStages);
+    const AlterResult result = alter_garment(tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
+                                             {.name = "builtin:tube-18-125", .bytes = {}}, options, runner);
+    EXPECT_GT(result.place.kept_plan().position, 0.0);
+    return to_bytes(AlterInLoopResult{result.altered, result.place});
+  };
+  const Bytes for_ticket = altered("ticket.json");
+  EXPECT_EQ(altered("target_after.obj"), for_ticket);
+  EXPECT_EQ(altered("all"), for_ticket);
+}
+
+TEST(TubePipeline, TellsWhereTheAlteredGarmentRests) {
+  const AlterResult result = alter_tube("tube-14-100", "tube-18-100");
+  AlterOptions options = small();
+  options.outputs = {"result.json"};
+  const BodyInput body{.name = "builtin:tube-14-100", .bytes = {}};
+  const auto files = alter_outputs(result, options, job_info(tube_skirt(), body, body));
+  const std::string told(files.back().bytes.begin(), files.back().bytes.end());
+  EXPECT_NE(told.find("\"altered_place\": {"), std::string::npos);
+  const Record place = place_record(result.place);
+  EXPECT_TRUE(std::get<bool>(*place.find("in_place")));
+  const double position = std::get<double>(*place.find("position_mm"));
+  EXPECT_GT(position, 0.0);
+  EXPECT_LE(position, std::get<double>(*place.find("allowed_mm")));
+  EXPECT_EQ(std::get<std::vector<Record>>(*place.find("plans")).size(), result.place.plans.size());
 }
 
 TEST(TubePipeline, ReportsProgressThatNeverFallsAndEndsAtOne) {

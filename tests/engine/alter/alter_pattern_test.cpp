@@ -193,6 +193,7 @@ TEST(AlterPattern, TheSymmetryPlaneSaysWhatIsTheMiddle) {
   EXPECT_EQ(alter(garment, scaled(1.2, 1)).panels[0].insertions.size(), 2u);
 }
 
+// Of one plan: a garment that is tried on and rests off its place is planned again (alter_in_loop).
 TEST(AlterPattern, AHigherAllowedStretchNeverNeedsMoreOperations) {
   std::size_t before = 1000;
   for (const double mu : {0.01, 0.03, 0.05, 0.1, 0.25}) {

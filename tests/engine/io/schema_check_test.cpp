@@ -71,7 +71,7 @@ TEST(SchemaCheck, SaysWhatIsThereAndWhatWasExpected) {
   EXPECT_EQ(said(R"({"schema": "toile/result/1"})", "options"),
             "/schema found \"toile/result/1\", expected toile/options/1\n");
   const std::string unknown = said(R"({"presett": "draft"})", "options");
-  EXPECT_TRUE(unknown.starts_with("/ unknown member \"presett\"; known here are cut_smoothness, ")) << unknown;
+  EXPECT_TRUE(unknown.starts_with("/ unknown member \"presett\"; known here are alteration_plans, ")) << unknown;
   const std::string job = said(R"({"garment": "skirt"})", "job_request");
   EXPECT_NE(job.find("/garment \"skirt\" has not the form expected here: The id that POST /v1/garments"), job.npos)
       << job;

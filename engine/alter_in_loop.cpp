@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "engine/alter_in_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace toile {
+namespace {
+
+constexpr double kFiner = 1.5;  // times the triangles a plan is tried on with: from there on with that many
+const double kUsualStretch = AlterPatternOptions().stretch_limit;
+constexpr double kStricter = 0.7;   // of the share before or of the strain that was left, whichever is less
+constexpr double kStrictest = 0.1;  // of the allowed stretch: cloth that keeps less is not what is off its place
+
+double check_edge_length(const PatternMesh& original, int triangles) {
+  const double finer = static_cast<double>(original.triangle_count()) / triangles;
+  return original.target_edge_length * (finer > kFiner ? std::sqrt(finer) : 1.0);
+}
+
+// What of two plans is better is less.
+std::tuple<int, int, double> rank(const PlacedPlans& place, const TriedPlan& plan) {
+  return {plan.faults + (place.in_place(plan) ? 0 : 1), plan.operations, plan.position};
+}
+
+}  // namespace
+
+AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& scene, const Drape& target_drape,
+                                const AlterPatternOptions& alter_options, const DrapeOptions& drape_options,
+                                const AlterInLoopOptions& options, Progress* progress, bool at_once) {
+  DrapeSeries on_target(scene.body);
+  const double edge_length = check_edge_length(scene.original, options.check_triangles);
+  AlterInLoopResult result;
+  PlacedPlans& place = result.place;
+  place.ideal = compare_positions(scene.start.nodes, target_drape.nodes).rms;
+  place.allowed = options.share_of_ideal * place.ideal +
+                  options.farther_off * std::max(1.0, alter_options.stretch_limit / kUsualStretch);
+  AlterPatternOptions planned = alter_options;
+  while (static_cast<int>(place.plans.size()) < options.max_plans) {
+    AlterPatternResult altered = alter_pattern(pattern, scene.original, scene.target.rest, planned, progress, at_once);
+    const DrapedAlteration worn = drape_altered(scene, altered.sewn, edge_length, on_target, drape_options, progress);
+    const TriedPlan plan{altered.planned_share,
+                         static_cast<int>(altered.ticket.operations.size()),
+                         static_cast<int>(faults_of(altered)),
+                         worn.problem,
+                         worn.mesh.triangle_count(),
+                         worn.position.rms};
+    planned.planned_share = kStricter * std::min(altered.planned_share, altered.strain_left);
+    place.plans.push_back(plan);
+    if (place.plans.size() == 1 || rank(place, plan) < rank(place, place.kept_plan())) {
+      place.kept = static_cast<int>(place.plans.size()) - 1;
+      result.altered = std::move(altered);
+    }
+    if (place.in_place(plan) || planned.planned_share < kStrictest) break;
+  }
+  return result;
+}
+
+}  // namespace toile
