@@ -80,6 +80,12 @@ std::string readable_garment_name(const std::string& name) {
 
 std::vector<std::string> summary_sentences(const AlterResult& result, const JobFits& fits) {
   std::vector<std::string> sentences = {work_sentence(result.altered.ticket), fit_sentence(fits)};
+  const PlacedPlans& place = result.place;
+  if (place.kept_plan().problem.empty() && !place.in_place(place.kept_plan()))
+    sentences.push_back(
+        print_text("Tried on, the altered garment rests %.1f mm off its place (root mean square); "
+                   "%.1f mm was aimed at.",
+                   place.kept_plan().position * kMmPerMetre, place.allowed * kMmPerMetre));
   if (result.after && !result.after->problem.empty())
     sentences.push_back("The altered garment could not be sewn together and worn: " + result.after->problem + ".");
   return sentences;

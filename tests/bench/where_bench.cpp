@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // where [--triangles N] [--mu X] GARMENT:BODY...: where an altered garment rests off the place its reference's drape is
 // carried to on the target body, piece by piece and at every open edge, and how long its pieces' sides have become
-// against the target pattern: what `alter --drape` tells as one number.
+// against the target pattern: what `alter --drape` tells as one number. Before that how far the target pattern itself
+// rests off when it is meshed anew, a little coarser and finer: nearer than that no alteration can be expected to rest.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -121,6 +122,38 @@ void print_lengths(const Where& where) {
   table.print();
 }
 
+// The target pattern as if it were an alteration, every panel one piece.
+SewnPattern as_it_is(const DerivedPattern& derived) {
+  SewnPattern sewn;
+  sewn.pattern = derived.drawn.pattern;
+  for (std::size_t p = 0; p < derived.mesh.panels.size(); ++p) {
+    const PanelRange& range = derived.mesh.panels[p];
+    SewnPiece piece;
+    piece.panel = static_cast<int>(p);
+    piece.map.rest = derived.mesh.rest.middleRows(range.vertex_begin, range.vertex_end - range.vertex_begin);
+    piece.map.target = piece.map.rest;
+    piece.map.triangles =
+        derived.mesh.triangles.middleRows(range.triangle_begin, range.triangle_end - range.triangle_begin).array() -
+        range.vertex_begin;
+    sewn.pieces.push_back(std::move(piece));
+  }
+  return sewn;
+}
+
+void print_target_itself(const DerivedGarment& derived, const DrapeOptions& options) {
+  const SewnPattern sewn = as_it_is(derived.derived);
+  DrapeSeries on_target(derived.target_body);
+  std::printf("the target pattern itself: %.1f mm off; meshed anew:",
+              kMmPerMetre * compare_positions(derived.transported.drape.nodes, derived.derived.drape.drape.nodes).rms);
+  for (const double coarser : {0.93, 0.97, 1.03, 1.07}) {
+    const DrapedAlteration worn =
+        drape_altered(scene_of(derived, derived.transported.drape), sewn,
+                      coarser * derived.reference.mesh.target_edge_length, on_target, options);
+    std::printf(" %.1f", kMmPerMetre * worn.position.rms);
+  }
+  std::printf("\n");
+}
+
 void tell(const AlterPair& pair, const AlterOptions& job, StageCache* stages) {
   const DerivedGarment derived = derive_pair(pair.garment, pair.body, job, stages);
   const AlterPatternResult altered = alter_derived(derived, job).altered;
@@ -136,6 +169,7 @@ void tell(const AlterPair& pair, const AlterOptions& job, StageCache* stages) {
     return;
   }
   std::printf("%.1f mm off (rms)\n", kMmPerMetre * where.rested.position.rms);
+  print_target_itself(derived, drape_options_of(job));
   print_positions(where);
   print_lengths(where);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/archive_stages.h"
+#include "engine/job_report.h"
 #include "engine/outputs.h"
 #include "engine/result_records.h"
 #include "tests/support/shared_data.h"
@@ -198,6 +199,16 @@ TEST(TubePipeline, TellsWhereTheAlteredGarmentRests) {
   EXPECT_GT(position, 0.0);
   EXPECT_LE(position, std::get<double>(*place.find("allowed_mm")));
   EXPECT_EQ(std::get<std::vector<Record>>(*place.find("plans")).size(), result.place.plans.size());
+}
+
+TEST(TubePipeline, TheReportSaysWhereTheAlteredGarmentRestsOffItsPlace) {
+  AlterResult result = alter_tube("tube-14-100", "tube-18-100");
+  const JobFits fits = compare_job_fits(result);
+  const auto in_place = summary_sentences(result, fits);
+  result.place.allowed = 0.0;
+  const auto off = summary_sentences(result, fits);
+  ASSERT_EQ(off.size(), in_place.size() + 1);
+  EXPECT_NE(off[2].find("mm off its place"), std::string::npos);
 }
 
 TEST(TubePipeline, ReportsProgressThatNeverFallsAndEndsAtOne) {
