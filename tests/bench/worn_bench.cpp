@@ -2,13 +2,15 @@
 // worn [GARMENT...] [--triangles N] [--stages FOLDER] [--pictures FOLDER] [--sentences]: garments worn by MakeHuman
 // bodies (made by deriving the shared garments for them first), altered for others: leggings from child to adult and
 // back, a dress on five sizes and heights, skirt, sweater, trousers and T-shirt for a smaller, a larger and a scanned
-// person. Prints fit before and after; pictures: the garment where it was worn, on the other person as it is and as
-// altered, all to one scale of stretch, and what is cut; one per pair and contact_sheet.png.
+// person. Prints fit before and after and where every plan rested; pictures: the garment where it was worn, on the
+// other person as it is and as altered, all to one scale of stretch, and what is cut; one per pair and
+// contact_sheet.png.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 
+#include "engine/core/units.h"
 #include "engine/io/garmentcode_json.h"
 #include "engine/render/png.h"
 #include "engine/stages/render_views.h"
@@ -103,6 +105,15 @@ Image picture_of_pair(const WornPair& pair, const AlterResult& r) {
   return row;
 }
 
+// "6 off 12.0, 7 off 7.9": operations of every plan and where it rested, mm.
+std::string words_of(const PlacedPlans& place) {
+  std::string words;
+  for (const TriedPlan& plan : place.plans)
+    words +=
+        (words.empty() ? "" : ", ") + std::to_string(plan.operations) + " off " + fixed(kMmPerMetre * plan.position, 1);
+  return words;
+}
+
 std::vector<std::string> words_of(const WornPair& pair, const AlterResult& r) {
   const AlterOutcome outcome = outcome_of(r.altered);
   const auto percent = [](double share) { return fixed(100.0 * share, 2); };
@@ -124,7 +135,10 @@ std::vector<std::string> words_of(const WornPair& pair, const AlterResult& r) {
           fixed(1e4 * inserted, 0),
           fixed(1e4 * removed, 0),
           percent(outcome.balance),
-          std::to_string(outcome.flags)};
+          std::to_string(outcome.flags),
+          fixed(kMmPerMetre * r.place.kept_plan().position, 1),
+          fixed(kMmPerMetre * r.place.allowed, 1),
+          words_of(r.place)};
 }
 
 // The garment as drafted for its own body, made to fit the wearer.
@@ -144,7 +158,7 @@ int bench_worn(const Arguments& arguments) {
   const Request request = parse(Words(arguments.words));
   const auto stages = stage_store(request.stages);
   Table table({"garment", "worn by", "for", "before %", "ideal %", "altered %", "rest", "inside", "operations",
-               "in cm2", "out cm2", "balance %", "flags"});
+               "in cm2", "out cm2", "balance %", "flags", "off mm", "allowed", "plans"});
   std::vector<Image> sheet;
   int failed = 0;
   for (const WornPair& pair : kPairs) {
