@@ -30,7 +30,7 @@ struct AlterInLoopOptions {
 struct TriedPlan {
   double share = 1.0;  // of the allowed stretch, planned with
   int operations = 0;
-  int faults = 0;         // flags, areas that do not balance
+  int faults = 0;         // see faults_of
   std::string problem;    // why it could not be draped, or empty
   int triangles = 0;      // of the mesh it was draped with
   double position = 0.0;  // m, rms distance from its place

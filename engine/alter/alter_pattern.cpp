@@ -22,6 +22,7 @@ constexpr int kPlanTriangles = 600;   // of the garment: tears are chosen on so 
 constexpr double kPastMouth = 0.001;  // m
 constexpr double kStrained = 2.0;     // times the allowed stretch: share of a panel's area that strain in it explains
 constexpr double kMostImbalance = 0.01;  // of the garment's area, that strain may add up to
+constexpr double kMostMismatch = 5e-4;   // m, of two sides that are sewn to each other
 constexpr double kStricter = 0.7;        // of the limit before: what a plan with a stricter one is made with
 constexpr double kStrictest = 0.45;      // of the allowed stretch, at least
 constexpr double kLeastOff = 5e-5;       // m^2: less is crumbs
@@ -314,7 +315,8 @@ AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, cons
 }  // namespace
 
 std::size_t faults_of(const AlterPatternResult& result) {
-  return result.flags.size() + result.sewn.flags.size() + (result.area_imbalance > kMostImbalance);
+  return result.flags.size() + result.sewn.flags.size() + (result.area_imbalance > kMostImbalance) +
+         (seam_mismatch(result.sewn) > kMostMismatch);
 }
 
 AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,

@@ -74,7 +74,7 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
                                  const AlterPatternOptions& options = {}, Progress* progress = nullptr,
                                  bool at_once = false);
 
-// Flags, and one more where strain adds up to too much area.
+// Flags, one more where strain adds up to too much area, and one where two sides of a seam are not alike.
 std::size_t faults_of(const AlterPatternResult& result);
 
 }  // namespace toile

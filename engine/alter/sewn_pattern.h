@@ -37,4 +37,7 @@ struct SewnPattern {
   std::vector<std::string> flags;  // panels that could not be sewn as altered, with the reason
 };
 
+// The most by which the two sides of a seam, as they are drawn, differ from what is eased there, m.
+double seam_mismatch(const SewnPattern& sewn);
+
 }  // namespace toile

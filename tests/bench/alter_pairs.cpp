@@ -6,7 +6,6 @@
 
 #include "engine/core/drawing.h"
 #include "engine/core/units.h"
-#include "engine/geometry/curve.h"
 #include "engine/geometry/inner_point.h"
 #include "engine/render/drawing_picture.h"
 #include "engine/stage_options.h"
@@ -54,17 +53,6 @@ double narrowest_insertion(const AlterPatternResult& result) {
   return narrowest < 1e9 ? narrowest : 0.0;
 }
 
-// Both sides of every seam as they are drawn, against what the wanted pattern eases there.
-double worst_plies(const SewnPattern& sewn) {
-  double worst = 0.0;
-  for (std::size_t s = 0; s < sewn.seams.size(); ++s) {
-    const auto length = [&](const SeamSide& side) { return edge_length(sewn.pattern.panel(side.panel), side.edge); };
-    const Seam& seam = sewn.pattern.seams[s];
-    worst = std::max(worst, std::abs(length(seam.a) - length(seam.b) - sewn.seams[s].eased));
-  }
-  return worst;
-}
-
 }  // namespace
 
 std::vector<AlterPair> acceptance_pairs() {
@@ -92,7 +80,7 @@ AlterOutcome outcome_of(const AlterPatternResult& result) {
   }
   outcome.narrowest = narrowest_insertion(result);
   outcome.balance = result.area_imbalance;
-  outcome.plies = worst_plies(result.sewn);
+  outcome.plies = seam_mismatch(result.sewn);
   return outcome;
 }
 

@@ -112,6 +112,16 @@ AlterPatternResult alter_without_tears(const GridGarment& garment, double width)
   return alter_pattern(garment.pattern, garment.mesh, garment.mapped(scaled(width, 0.7)), options);
 }
 
+TEST(SewAltered, ASeamWhoseSidesAreNotAlikeIsAFault) {
+  const GridGarment garment = grid_garment({{"front", 0.4, 0.6, 20, 30}, {"back", 0.4, 0.6, 20, 30}}, {{0, 1, 1, 3}});
+  AlterPatternResult result = alter(garment, [](int, const Vec2& p) { return Vec2(1.2 * p.x(), p.y()); });
+  ASSERT_FALSE(result.sewn.seams.empty());
+  EXPECT_EQ(faults_of(result), 0u);
+  result.sewn.seams[0].eased += 0.002;
+  EXPECT_GT(seam_mismatch(result.sewn), 0.0015);
+  EXPECT_EQ(faults_of(result), 1u);
+}
+
 TEST(SewAltered, CutsAPanelThatNoTearBringsNearAnewOutOfItsOwnCloth) {
   const GridGarment garment = all_locked();
   const AlterPatternResult result = alter_without_tears(garment, 0.6);
