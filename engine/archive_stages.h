@@ -87,8 +87,8 @@ void archive(A& a, DerivePatternResult& v) {
 }
 template <class A>
 void archive(A& a, DeriveInLoopOptions& v) {
-  auto& [max_passes, good_enough, least_gain] = v;
-  a(max_passes, good_enough, least_gain);
+  auto& [max_passes, good_enough, least_gain, least_nearer] = v;
+  a(max_passes, good_enough, least_gain, least_nearer);
 }
 template <class A>
 void archive(A& a, PositionDifference& v) {

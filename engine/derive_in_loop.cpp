@@ -58,9 +58,10 @@ DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& referen
         derive_and_drape(scene, best.drape.drape, &best.derivation.rest, derive_options, drape_options, progress);
     errors.push_back(next.rms_stretch_error);
     const bool gained = next.rms_stretch_error < best.rms_stretch_error - options.least_gain;
+    const double bar = (1.0 - options.least_nearer) * best.rms_stretch_error;
     // Rest is worth as much error as a further pass.
     const double worth = options.least_gain * (static_cast<int>(at_rest(next)) - static_cast<int>(at_rest(best)));
-    if (next.rms_stretch_error < best.rms_stretch_error + worth) best = std::move(next);
+    if (next.rms_stretch_error < bar + worth) best = std::move(next);
     if (!gained && at_rest(best)) break;
   }
   best.pass_errors = std::move(errors);

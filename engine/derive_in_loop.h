@@ -21,6 +21,9 @@ struct DeriveInLoopOptions {
   double good_enough = 0.005;
   // What a pass must have gained for another one to be tried, which gains about half as much: 0.5 mm on a metre.
   double least_gain = 0.001;
+  // Share of the error before by which a pass must be nearer to be kept. Patterns that fit alike can differ by a
+  // millimetre: with a tenth, meshes of different sizes keep the same pass.
+  double least_nearer = 0.0;
 };
 
 struct DerivedPattern {

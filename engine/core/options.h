@@ -47,7 +47,7 @@ inline int garment_triangles(const AlterOptions& options) {
   switch (options.preset) {
     case Preset::Draft: return 4000;
     case Preset::Standard: return 10000;
-    case Preset::Fine: return 20000;
+    case Preset::Fine: return 22000;
   }
   return 10000;
 }

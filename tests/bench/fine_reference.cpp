@@ -138,7 +138,9 @@ DrapeOptions drape_options(const Accuracy& accuracy) {
 
 // Of the target pattern, from the reference drape.
 void derive(const SceneBodies& scene, const DrapeOptions& options, Answer& result) {
-  const AlterOptions usual;
+  AlterOptions usual;
+  usual.preset = Preset::Fine;
+  if (options.stop_residual > drape_options_of(usual).stop_residual) usual.preset = Preset::Standard;
   result.hem_girth = hem_girth(scene.pattern, result.mesh, result.reference_drape);
   const FittingMap fit = build_fitting_map(result.mesh, result.reference_drape);
   const Drape carried =

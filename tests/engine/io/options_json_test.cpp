@@ -120,7 +120,7 @@ TEST(OptionsJson, SetsOneOptionFromText) {
   EXPECT_EQ(options.outputs, (std::vector<std::string>{"ticket.json", "pattern.png"}));
   set_option(options, "outputs", R"(["fit.png"])");
   EXPECT_EQ(options.outputs, std::vector<std::string>{"fit.png"});
-  EXPECT_EQ(garment_triangles(options), 20000);
+  EXPECT_EQ(garment_triangles(options), 22000);
   EXPECT_THROW(set_option(options, "l_shapes", "maybe"), Error);
 }
 
