@@ -27,6 +27,8 @@ class Sewing {
     sew();
     add_notches();
     add_pins();
+    const std::vector<std::string> unlike = unlike_seams(sewn_);
+    sewn_.flags.insert(sewn_.flags.end(), unlike.begin(), unlike.end());
     return std::move(sewn_);
   }
 

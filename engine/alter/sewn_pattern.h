@@ -34,10 +34,12 @@ struct SewnPattern {
   Pattern pattern;
   std::vector<SewnPiece> pieces;   // one per panel of `pattern`
   std::vector<SewnSeam> seams;     // one per seam of `pattern`
-  std::vector<std::string> flags;  // panels that could not be sewn as altered, with the reason
+  std::vector<std::string> flags;  // panels that could not be sewn as altered, with the reason; unlike_seams
 };
 
 // The most by which the two sides of a seam, as they are drawn, differ from what is eased there, m.
 double seam_mismatch(const SewnPattern& sewn);
+// Seams whose sides differ by so much that whoever sews them has to know, in words.
+std::vector<std::string> unlike_seams(const SewnPattern& sewn);
 
 }  // namespace toile

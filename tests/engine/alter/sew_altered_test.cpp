@@ -117,9 +117,13 @@ TEST(SewAltered, ASeamWhoseSidesAreNotAlikeIsAFault) {
   AlterPatternResult result = alter(garment, [](int, const Vec2& p) { return Vec2(1.2 * p.x(), p.y()); });
   ASSERT_FALSE(result.sewn.seams.empty());
   EXPECT_EQ(faults_of(result), 0u);
+  EXPECT_TRUE(unlike_seams(result.sewn).empty());
   result.sewn.seams[0].eased += 0.002;
   EXPECT_GT(seam_mismatch(result.sewn), 0.0015);
   EXPECT_EQ(faults_of(result), 1u);
+  result.sewn.seams[0].eased += 0.005;
+  ASSERT_EQ(unlike_seams(result.sewn).size(), 1u);
+  EXPECT_NE(unlike_seams(result.sewn)[0].find("7 mm too long"), std::string::npos) << unlike_seams(result.sewn)[0];
 }
 
 TEST(SewAltered, CutsAPanelThatNoTearBringsNearAnewOutOfItsOwnCloth) {
