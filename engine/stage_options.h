@@ -18,7 +18,7 @@ DeriveInLoopOptions loop_options_of(const AlterOptions& options);
 AlterInLoopOptions plan_options_of(const AlterOptions& options);
 AlterPatternOptions alter_options_of(const AlterOptions& options);
 
-// How far a preset's answer is from that of the same job with 40,000 triangles and a residual of 0.1: the worst of the
+// How far a preset's answer is from that of the fine one with 40,000 triangles (residual 0.1): the worst of the
 // scenes leggings_tight, tshirt_fitted, dress_sleeveless, skirt_pencil (tests/bench/results/pareto.csv).
 struct PresetError {
   double stretch = 0.0;   // rms of weft and warp of the reference drape's fitting map, dimensionless
