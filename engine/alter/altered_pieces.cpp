@@ -24,6 +24,7 @@ constexpr int kTruings = 2;  // after the first
 // Plies of one panel that differ by more than both cannot be eased onto each other: the wanted panel has its darts
 // elsewhere than the cloth, and strips across their mouths would gather it.
 constexpr double kMostEased = 0.33, kMostEasedLength = 8e-3;  // of the longer ply, and m
+constexpr double kMostUnlike = 0.02;                          // m, of a seam with another panel
 
 class Cutting {
  public:
@@ -52,10 +53,17 @@ class Cutting {
   }
 
  private:
+  struct KeptEdge {
+    int panel;
+    double length;  // m, of its cloth
+    double off;     // m, from the length in the target; 0 of cloth that is cut to it
+  };
   std::vector<bool> let_out(const PanelAlteration& panel) const;
   bool add_panel(int p);
   std::string try_panel(int p, const AlteredParts& parts, bool recut);
+  KeptEdge kept_edge(int chain) const;
   bool all_meet();
+  bool neighbours_meet();
   std::vector<bool> fixed_pieces() const;
   void true_and_draw();
   void draw_pieces();
@@ -163,7 +171,39 @@ bool Cutting::all_meet() {
     if (pattern_.panels[static_cast<std::size_t>(p)].locked) continue;
     if (recut_.emplace(p, CutAnew{"the edges of its pieces do not meet", {}, -1}).second) meet = false;
   }
+  return meet && neighbours_meet();
+}
+
+// Seams of two panels whose sides are far from alike: the panel is cut anew whose cloth is farther from the length that
+// is wanted there. Its darts stayed elsewhere.
+bool Cutting::neighbours_meet() {
+  bool meet = true;
+  for (const ChainSeam& seam : cut_.seams) {
+    const KeptEdge a = kept_edge(seam.a), b = kept_edge(seam.b);
+    if (a.panel == b.panel) continue;
+    const double most = std::max(kMostEased * std::max(a.length, b.length), kMostUnlike);
+    if (std::abs(a.length - b.length - seam.eased) <= most) continue;
+    const KeptEdge& farther = a.off > b.off ? a : b;
+    if (farther.off <= 0.0 || pattern_.panels[static_cast<std::size_t>(farther.panel)].locked) continue;
+    if (recut_.emplace(farther.panel, CutAnew{"its edges do not meet those of other panels", {}, -1}).second)
+      meet = false;
+  }
   return meet;
+}
+
+Cutting::KeptEdge Cutting::kept_edge(int chain) const {
+  const BorderChain& along = cut_.chains[static_cast<std::size_t>(chain)];
+  const PieceBorder& border = cut_.borders[static_cast<std::size_t>(along.piece)];
+  const SewnPiece& piece = cut_.pieces[static_cast<std::size_t>(along.piece)];
+  KeptEdge edge{piece.panel, chain_length(border, along), 0.0};
+  if (piece.insertion >= 0 || piece.recut) return edge;
+  double wanted = 0.0;
+  for (std::size_t i = 1; i < along.vertices.size(); ++i) {
+    const auto at = [&](std::size_t k) { return border.vertices[static_cast<std::size_t>(along.vertices[k])].target; };
+    wanted += (at(i) - at(i - 1)).norm();
+  }
+  edge.off = std::abs(edge.length - wanted);
+  return edge;
 }
 
 // Cloth that is cut as it is: of locked panels, and what just fits into its own old cloth.

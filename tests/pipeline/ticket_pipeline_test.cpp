@@ -205,5 +205,12 @@ TEST(SlowTicketPipeline, AWiderDresssTicketSaysWhatIsDrawn) {
   expect_ticket_agrees("dress.json", "woman-38-168", "woman-42-168");
 }
 
+// The darts of skirt and bodice move apart: the skirt's cloth between its darts is far from what is sewn to it.
+TEST(TicketPipeline, PanelsWhoseClothDoesNotMeetItsNeighboursAreCutAnew) {
+  const AlterResult result = alter("dress.json", "woman-38-168", "woman-50-165");
+  EXPECT_TRUE(unlike_seams(result.altered.sewn).empty()) << unlike_seams(result.altered.sewn).front();
+  EXPECT_FALSE(result.altered.flags.empty());
+}
+
 }  // namespace
 }  // namespace toile
