@@ -164,8 +164,8 @@ void archive(A& a, AlteredRegion& v) {
 }
 template <class A>
 void archive(A& a, SheetStress& v) {
-  auto& [energy, p95, p98, way, shift, lean, area, over] = v;
-  a(energy, p95, p98, way, shift, lean, area, over);
+  auto& [energy, p95, p98, way, shift, lean, area] = v;
+  a(energy, p95, p98, way, shift, lean, area);
 }
 template <class A>
 void archive(A& a, Tear& v) {

@@ -248,10 +248,17 @@ double strain_left(const AlterPatternResult& result, const RecutPanels& anew, do
   return left;
 }
 
-// Alters with tears that are planned with `share` of the allowed stretch.
-AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                           const CoarsePattern& coarse, const AlterPatternOptions& options, double share,
-                           Progress* progress, bool at_once) {
+// Both passes.
+struct Torn {
+  TornPattern inserting, removing;
+};
+struct TornMemory {
+  TearMemory inserting, removing;
+};
+
+// Tears that are planned with `share` of the allowed stretch.
+Torn tear_both(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest, const CoarsePattern& coarse,
+               const AlterPatternOptions& options, double share, TornMemory& memory, Progress* progress, bool at_once) {
   AlterPatternOptions planned = options;
   planned.stretch_limit *= share;
   auto [inserting, removing] = side_by_side(
@@ -259,15 +266,33 @@ AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, cons
       [&] {
         return tear_pattern(pattern, {mesh, mesh.rest, target_rest},
                             {coarse.mesh, coarse.mesh.rest, coarse.target_rest}, pass_options(pattern, planned, false),
-                            progress);
+                            memory.inserting, progress);
       },
       [&] {
         return tear_pattern(pattern, {mesh, target_rest, mesh.rest},
                             {coarse.mesh, coarse.target_rest, coarse.mesh.rest}, pass_options(pattern, planned, true),
-                            progress);
+                            memory.removing, progress);
       });
   judge_by(options.stretch_limit, inserting);
   judge_by(options.stretch_limit, removing);
+  return {std::move(inserting), std::move(removing)};
+}
+
+// The same tears, jobs and cloth: what follows from them is the same.
+bool torn_alike(const TornPattern& a, const TornPattern& b) {
+  const auto same_tears = [](const PanelTearing& x, const PanelTearing& y) {
+    return std::equal(x.tears.begin(), x.tears.end(), y.tears.begin(), y.tears.end(),
+                      [](const MadeTear& s, const MadeTear& t) { return s.tear == t.tear; });
+  };
+  return a.jobs == b.jobs &&
+         std::equal(a.sheets.begin(), a.sheets.end(), b.sheets.begin(), b.sheets.end(), lie_alike) &&
+         std::equal(a.panels.begin(), a.panels.end(), b.panels.begin(), b.panels.end(), same_tears);
+}
+
+// The alteration that was planned with `share` of the allowed stretch and tears so.
+AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
+                           const AlterPatternOptions& options, double share, const Torn& torn) {
+  const auto& [inserting, removing] = torn;
   AlterPatternResult result;
   result.planned_share = share;
   result.insertion_rounds = inserting.rounds;
@@ -323,14 +348,26 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
                                  const AlterPatternOptions& options, Progress* progress, bool at_once) {
   assert(target_rest.rows() == mesh.vertex_count() && pattern.panels.size() == mesh.panels.size());
   const CoarsePattern coarse = coarsen(pattern, mesh, target_rest, kPlanTriangles);
-  const auto with = [&](double share) {
-    return altered(pattern, mesh, target_rest, coarse, options, share, progress, at_once);
+  TornMemory memory;
+  const auto tear = [&](double share) {
+    return tear_both(pattern, mesh, target_rest, coarse, options, share, memory, progress, at_once);
   };
-  AlterPatternResult result = with(options.planned_share);
+  const auto with = [&](double share, const Torn& torn) {
+    return altered(pattern, mesh, target_rest, options, share, torn);
+  };
+  std::vector<Torn> tried;
+  tried.push_back(tear(options.planned_share));
+  AlterPatternResult result = with(options.planned_share, tried.back());
   // Where something is wrong, less strain may mend it with as many operations.
   for (double share = kStricter * options.planned_share; share >= kStrictest && faults_of(result) > 0;
        share *= kStricter) {
-    AlterPatternResult strict = with(share);
+    Torn torn = tear(share);
+    const bool known = std::any_of(tried.begin(), tried.end(), [&](const Torn& other) {
+      return torn_alike(other.inserting, torn.inserting) && torn_alike(other.removing, torn.removing);
+    });
+    if (known) continue;
+    AlterPatternResult strict = with(share, torn);
+    tried.push_back(std::move(torn));
     if (faults_of(strict) < faults_of(result) && strict.ticket.operations.size() <= result.ticket.operations.size())
       result = std::move(strict);
   }

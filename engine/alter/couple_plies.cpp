@@ -23,8 +23,14 @@ struct Ply {
 class Coupling {
  public:
   Coupling(const Pattern& pattern, const PatternMesh& mesh, const Points2& wanted, double stretch_limit,
-           std::vector<Sheet>& sheets)
-      : pattern_(pattern), mesh_(mesh), wanted_(wanted), limit_(stretch_limit), sheets_(sheets), holds_(sheets.size()) {
+           std::vector<Sheet>& sheets, TearMemory* memory)
+      : pattern_(pattern),
+        mesh_(mesh),
+        wanted_(wanted),
+        limit_(stretch_limit),
+        sheets_(sheets),
+        memory_(memory),
+        holds_(sheets.size()) {
     for (const Sheet& sheet : sheets) {
       vertices_.emplace_back(static_cast<std::size_t>(mesh.vertex_count()), -1);
       for (int v = sheet.vertex_count() - 1; v >= 0; --v)
@@ -36,18 +42,12 @@ class Coupling {
   void run(const RelaxOptions& options, Progress* progress) {
     for (std::size_t s = 0; s < pattern_.seams.size(); ++s) couple(s);
     work_off(sheets_.size(), [&](std::size_t p) {
-      if (std::any_of(holds_[p].begin(), holds_[p].end(), [](const Hold& hold) { return hold.moves; }))
+      if (std::any_of(holds_[p].begin(), holds_[p].end(), [](const SeamHold& hold) { return hold.moves; }))
         hold_panel(p, options, progress);
     });
   }
 
  private:
-  struct Hold {
-    int vertex, side;
-    double at;
-    bool moves;
-  };
-
   int side_of(const SeamSide& seam) const {
     const auto& sides = sheets_[static_cast<std::size_t>(seam.panel.value)].sides;
     for (std::size_t s = 0; s < sides.size(); ++s)
@@ -101,18 +101,34 @@ class Coupling {
     }
   }
 
-  void hold(int panel, const Hold& hold) {
+  void hold(int panel, const SeamHold& hold) {
     auto& holds = holds_[static_cast<std::size_t>(panel)];
     const auto known =
-        std::find_if(holds.begin(), holds.end(), [&](const Hold& other) { return other.vertex == hold.vertex; });
+        std::find_if(holds.begin(), holds.end(), [&](const SeamHold& other) { return other.vertex == hold.vertex; });
     if (known == holds.end()) holds.push_back(hold);
   }
 
-  // Adds a line across the seam on which the vertex hangs besides. Not where it would strain the panel beyond its
-  // limit.
+  // Not where it would strain the panel beyond its limit.
   void hold_panel(std::size_t p, const RelaxOptions& options, Progress* progress) {
+    const Sheet held = remembered(p, options, progress);
+    const double before = share_of_strain(measure_stress(sheets_[p]), limit_);
+    if (share_of_strain(measure_stress(held), limit_) > std::max(1.0, before)) return;
+    for (std::size_t v = 0; v < held.vertices.size(); ++v) sheets_[p].vertices[v].now = held.vertices[v].now;
+  }
+
+  Sheet remembered(std::size_t p, const RelaxOptions& options, Progress* progress) const {
+    if (!memory_) return held_sheet(p, options, progress);
+    auto& known = (*memory_)[p].held;
+    for (const HeldSheet& sheet : known)
+      if (sheet.holds == holds_[p] && lie_alike(sheet.before, sheets_[p])) return sheet.after;
+    known.push_back({sheets_[p], holds_[p], held_sheet(p, options, progress)});
+    return known.back().after;
+  }
+
+  // Adds a line across the seam on which the vertex hangs besides.
+  Sheet held_sheet(std::size_t p, const RelaxOptions& options, Progress* progress) const {
     Sheet held = sheets_[p];
-    for (const Hold& hold : holds_[p]) {
+    for (const SeamHold& hold : holds_[p]) {
       const SideCurve& side = held.wanted_sides[static_cast<std::size_t>(hold.side)];
       const Vec2 point = side.point(hold.at), across = kAcross * side.closest(point).normal;
       SheetVertex& vertex = held.vertices[static_cast<std::size_t>(hold.vertex)];
@@ -121,9 +137,7 @@ class Coupling {
       held.wanted_sides.emplace_back(std::vector<Vec2>{point - across, point + across});
     }
     relax(held, options, progress);
-    const double before = share_of_strain(measure_stress(sheets_[p], limit_), limit_);
-    if (share_of_strain(measure_stress(held, limit_), limit_) > std::max(1.0, before)) return;
-    for (std::size_t v = 0; v < held.vertices.size(); ++v) sheets_[p].vertices[v].now = held.vertices[v].now;
+    return held;
   }
 
   const Pattern& pattern_;
@@ -131,15 +145,16 @@ class Coupling {
   const Points2& wanted_;
   double limit_;
   std::vector<Sheet>& sheets_;
-  std::vector<std::vector<int>> vertices_;  // per sheet and pattern vertex: the sheet's, or -1
-  std::vector<std::vector<Hold>> holds_;    // per sheet
+  TearMemory* memory_;
+  std::vector<std::vector<int>> vertices_;    // per sheet and pattern vertex: the sheet's, or -1
+  std::vector<std::vector<SeamHold>> holds_;  // per sheet
 };
 
 }  // namespace
 
 void couple_plies(const Pattern& pattern, const PatternMesh& mesh, const Points2& wanted, double stretch_limit,
-                  const RelaxOptions& options, std::vector<Sheet>& sheets, Progress* progress) {
-  Coupling(pattern, mesh, wanted, stretch_limit, sheets).run(options, progress);
+                  const RelaxOptions& options, std::vector<Sheet>& sheets, TearMemory* memory, Progress* progress) {
+  Coupling(pattern, mesh, wanted, stretch_limit, sheets, memory).run(options, progress);
 }
 
 }  // namespace toile

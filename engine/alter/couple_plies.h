@@ -6,13 +6,14 @@
 // this project's.  Lengths in metres.
 #pragma once
 
-#include "engine/alter/stretch.h"
+#include "engine/alter/tear_memory.h"
 
 namespace toile {
 
 // `wanted`: where the plain map takes the mesh's vertices. Locked panels stay as they are, and hold what is sewn to
-// them; so does a panel that would be strained beyond the limit.
+// them; so does a panel that would be strained beyond the limit. `memory`: of the pass, one per sheet, or none.
 void couple_plies(const Pattern& pattern, const PatternMesh& mesh, const Points2& wanted, double stretch_limit,
-                  const RelaxOptions& options, std::vector<Sheet>& sheets, Progress* progress = nullptr);
+                  const RelaxOptions& options, std::vector<Sheet>& sheets, TearMemory* memory = nullptr,
+                  Progress* progress = nullptr);
 
 }  // namespace toile

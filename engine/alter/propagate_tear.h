@@ -20,6 +20,7 @@ struct Tear {
   int side = 0;                   // of the panel
   double at = 0.0;                // edge tear: where it starts, arc length along the cloth's side
   Vec2 direction = Vec2::Zero();  // edge tear: unit, in the cloth
+  bool operator==(const Tear&) const = default;
 };
 
 // A place on a side where an opening breaks the outline: what is sewn there must open too.

@@ -17,19 +17,21 @@ constexpr double kProbe = 0.004;  // m, between the places where a line is looke
 class Search {
  public:
   Search(const Sheet& stretched, const std::vector<TearUnit>& units, const SearchTearsOptions& options,
-         std::vector<TearSet>& sets, int& trials, Progress* progress)
+         SheetEquations& equations, std::vector<TriedSet>& tried, std::vector<TearSet>& sets, int& trials,
+         Progress* progress)
       : stretched_(stretched),
         units_(units),
         options_(options),
+        equations_(equations),
+        tried_(tried),
         found_(sets),
         trials_(trials),
-        progress_(progress),
-        equations_(stretched, options.tear.relaxation.hold) {
-    for (const TearSet& set : sets) tried_.insert(set.units);
+        progress_(progress) {
+    for (const TearSet& set : sets) seen_.insert(set.units);
   }
 
   void run(int first_unit) {
-    if (found_.empty()) found_.push_back({{}, measure_stress(stretched_, options_.stretch_limit), {}, {}});
+    if (found_.empty()) found_.push_back({{}, measure_stress(stretched_), {}, {}});
     if (within(found_.front())) return;
     std::vector<std::size_t> level = best_of(0);
     if (level.size() > static_cast<std::size_t>(options_.beam)) level.resize(static_cast<std::size_t>(options_.beam));
@@ -73,37 +75,45 @@ class Search {
       std::vector<int> more = units;
       more.push_back(unit);
       std::sort(more.begin(), more.end());
-      if (tried_.insert(more).second) try_set(more);
+      if (seen_.insert(more).second) add_set(more);
     }
   }
 
-  void try_set(const std::vector<int>& units) {
+  void add_set(const std::vector<int>& units) {
+    ++trials_;
+    std::vector<std::vector<Tear>> tears;
+    for (const int unit : units) tears.push_back(units_[static_cast<std::size_t>(unit)].tears);
+    auto known = std::find_if(tried_.begin(), tried_.end(), [&](const TriedSet& set) { return set.units == tears; });
+    if (known == tried_.end()) known = tried_.insert(known, {tears, try_set(tears)});
+    if (!known->left) return;
+    found_.push_back(*known->left);
+    found_.back().units = units;
+  }
+
+  // Nothing, where they cannot be made.
+  std::optional<TearSet> try_set(const std::vector<std::vector<Tear>>& units) const {
     Sheet sheet = stretched_;
     std::vector<Tear> tears;
-    for (const int unit : units) {
-      const auto& own = units_[static_cast<std::size_t>(unit)].tears;
-      tears.insert(tears.end(), own.begin(), own.end());
-    }
+    for (const auto& own : units) tears.insert(tears.end(), own.begin(), own.end());
     const std::vector<TearOutcome> outcomes = propagate_tears(sheet, tears, options_.tear, progress_, &equations_);
-    ++trials_;
-    TearSet set{units, measure_stress(sheet, options_.stretch_limit), {}, {}};
+    TearSet set{{}, measure_stress(sheet), {}, {}};
     std::size_t next = 0;
-    for (const int unit : units) {
+    for (const auto& own : units) {
       double largest = 0.0;
-      for (const Tear& tear : units_[static_cast<std::size_t>(unit)].tears) {
+      for (const Tear& tear : own) {
         const TearOutcome& outcome = outcomes[next++];
         set.mouths.insert(set.mouths.end(), outcome.mouths.begin(), outcome.mouths.end());
         largest = std::max(largest, outcome.largest_gap);
-        if (!worth_it(tear, outcome)) return;
+        if (!worth_it(tear, outcome)) return std::nullopt;
       }
       set.largest_gaps.push_back(largest);
     }
     // Trials are relaxed only roughly; the garment's own mesh is held to the limit itself.
-    if (farthest_outside(sheet) > 2.0 * kMostOutside) return;
-    if (!options_.keep_outs.empty() && enters_keep_out(sheet, tears)) return;
+    if (farthest_outside(sheet) > 2.0 * kMostOutside) return std::nullopt;
+    if (!options_.keep_outs.empty() && enters_keep_out(sheet, tears)) return std::nullopt;
     for (const TearMouth& mouth : set.mouths)
-      if (stretched_.sides[static_cast<std::size_t>(mouth.side)].locked) return;
-    found_.push_back(std::move(set));
+      if (stretched_.sides[static_cast<std::size_t>(mouth.side)].locked) return std::nullopt;
+    return set;
   }
 
   bool worth_it(const Tear& tear, const TearOutcome& outcome) const {
@@ -144,11 +154,12 @@ class Search {
   const Sheet& stretched_;
   const std::vector<TearUnit>& units_;
   const SearchTearsOptions& options_;
+  SheetEquations& equations_;  // of all sets while only sides are let go
+  std::vector<TriedSet>& tried_;
   std::vector<TearSet>& found_;
   int& trials_;
   Progress* progress_;
-  SheetEquations equations_;  // of all sets while only sides are let go
-  std::set<std::vector<int>> tried_;
+  std::set<std::vector<int>> seen_;
 };
 
 }  // namespace
@@ -183,8 +194,9 @@ double farthest_outside(const Sheet& sheet) {
 }
 
 void search_tears(const Sheet& stretched, const std::vector<TearUnit>& units, int first_unit,
-                  const SearchTearsOptions& options, std::vector<TearSet>& sets, int& trials, Progress* progress) {
-  Search(stretched, units, options, sets, trials, progress).run(first_unit);
+                  const SearchTearsOptions& options, SheetEquations& equations, std::vector<TriedSet>& tried,
+                  std::vector<TearSet>& sets, int& trials, Progress* progress) {
+  Search(stretched, units, options, equations, tried, sets, trials, progress).run(first_unit);
 }
 
 }  // namespace toile

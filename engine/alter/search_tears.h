@@ -4,6 +4,8 @@
 // [Eggler2024, Sec. 6.2, Fig. 10].
 #pragma once
 
+#include <optional>
+
 #include "engine/alter/stretch.h"
 #include "engine/alter/tear_units.h"
 
@@ -14,6 +16,13 @@ struct TearSet {
   SheetStress stress;                // what it leaves
   std::vector<TearMouth> mouths;     // where it breaks the outline
   std::vector<double> largest_gaps;  // m, per unit
+};
+
+// A set as it was tried: the tears of each of its units, and what they leave if they can be made. Nothing of it depends
+// on the stretch limit.
+struct TriedSet {
+  std::vector<std::vector<Tear>> units;
+  std::optional<TearSet> left;
 };
 
 struct SearchTearsOptions {
@@ -53,9 +62,10 @@ inline constexpr double kNearEnough = 1.25;
 inline constexpr double kMostOutside = 0.01;
 
 // Adds to `sets` (the empty set first, then in the order they are tried) what the units from `first_unit` on make
-// possible; with `sets` empty and `first_unit` 0 everything. `trials` is counted up.
+// possible; with `sets` empty and `first_unit` 0 everything. `trials` is counted up. `equations`: of the sheet.
+// `tried`: sets that were tried on this sheet; grows.
 void search_tears(const Sheet& stretched, const std::vector<TearUnit>& units, int first_unit,
-                  const SearchTearsOptions& options, std::vector<TearSet>& sets, int& trials,
-                  Progress* progress = nullptr);
+                  const SearchTearsOptions& options, SheetEquations& equations, std::vector<TriedSet>& tried,
+                  std::vector<TearSet>& sets, int& trials, Progress* progress = nullptr);
 
 }  // namespace toile

@@ -16,6 +16,7 @@ struct SheetAnchor {
   int side = -1;
   double at = 0.0;        // arc length along the cloth's own side
   bool attached = false;  // slides on the wanted side; else torn off it
+  bool operator==(const SheetAnchor&) const = default;
 };
 
 struct SheetVertex {

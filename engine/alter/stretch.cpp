@@ -87,7 +87,7 @@ void relax(Sheet& sheet, const RelaxOptions& options, Progress* progress, SheetE
   equations.finish(sheet);
 }
 
-SheetStress measure_stress(const Sheet& sheet, double limit) {
+SheetStress measure_stress(const Sheet& sheet) {
   SheetStress stress;
   WeightedValues tension;
   std::array<WeightedValues, 2> along;  // weft, warp
@@ -112,9 +112,6 @@ SheetStress measure_stress(const Sheet& sheet, double limit) {
     stress.way = std::max(stress.way, extent[k] * weighted_quantile(along[static_cast<std::size_t>(k)], 0.95));
   if (stress.area > 0.0) stress.shift = std::max(0.0, extent.cwiseProduct(lengthened).maxCoeff() / stress.area);
   stress.lean = lean.way(extent);
-  for (const auto& [value, area] : tension)
-    if (value > limit) stress.over += area;
-  if (stress.area > 0.0) stress.over /= stress.area;
   return stress;
 }
 

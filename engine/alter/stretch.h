@@ -32,7 +32,6 @@ struct SheetStress {
   double shift = 0.0;   // m, how far the mean of weft or warp strain brings the cloth's edges off
   double lean = 0.0;    // m, how far shear or strain that grows across the cloth brings an edge off sideways
   double area = 0.0;    // of the cloth, m^2
-  double over = 0.0;    // share of the area above `limit`
 };
 
 // Moves sheet.now to (near) the minimum; the cloth's present place is the start. `shared`: the equations of the sheet
@@ -41,7 +40,7 @@ void relax(Sheet& sheet, const RelaxOptions& options = {}, Progress* progress = 
            SheetEquations* shared = nullptr);
 
 // What is left in the cloth where it is.
-SheetStress measure_stress(const Sheet& sheet, double limit);
+SheetStress measure_stress(const Sheet& sheet);
 
 // Gradient of the map from the cloth to `now` (or to the plain map's `guide`) on one face.
 Mat2 sheet_gradient(const Sheet& sheet, std::size_t face);

@@ -62,7 +62,7 @@ TearCandidate try_tear(const Sheet& sheet, const Tear& tear, const SheetStress& 
   candidate.tear = tear;
   candidate.after = sheet;
   candidate.outcome = propagate_tear(candidate.after, tear, options.tear, progress);
-  candidate.stress = measure_stress(candidate.after, options.stretch_limit);
+  candidate.stress = measure_stress(candidate.after);
   candidate.release = first_energy > 0.0 ? (before.energy - candidate.stress.energy) / first_energy : 0.0;
   candidate.weight = options.weighting == TearWeighting::Release
                          ? candidate.release

@@ -55,11 +55,11 @@ class Tearing {
 void Tearing::stretch_all() {
   for (std::size_t p = 0; p < first_.size(); ++p) {
     PanelTearing& panel = result_.panels[p];
-    panel.before = measure_stress(first_[p], limit());
+    panel.before = measure_stress(first_[p]);
     // The plain map is the start; where it has no tension it stays, and there is nothing to relax.
     if (!locked_[p] && !within(panel.before)) {
       relax(first_[p], options_.candidates.tear.relaxation, progress_);
-      panel.before = measure_stress(first_[p], limit());
+      panel.before = measure_stress(first_[p]);
     }
     panel.after = panel.before;
   }
@@ -163,7 +163,7 @@ bool Tearing::replay(std::size_t p, std::size_t without, Sheet& sheet) {
   const std::vector<MadeTear>& tears = result_.panels[p].tears;
   for (std::size_t i = 0; i < tears.size(); ++i)
     if (i != without && !propagate_tear(sheet, tears[i].tear, options_.candidates.tear, progress_).opened) return false;
-  return within(measure_stress(sheet, limit()));
+  return within(measure_stress(sheet));
 }
 
 void Tearing::undo_redundant(std::size_t p) {
@@ -176,7 +176,7 @@ void Tearing::undo_redundant(std::size_t p) {
     }
     tears.erase(tears.begin() + static_cast<std::ptrdiff_t>(i));
     result_.sheets[p] = std::move(sheet);
-    result_.panels[p].after = measure_stress(result_.sheets[p], limit());
+    result_.panels[p].after = measure_stress(result_.sheets[p]);
     ++result_.reverted;
   }
 }

@@ -27,14 +27,16 @@ std::vector<Sheet> make_sheets(const Pattern& pattern, const Stretching& maps,
 class Planning {
  public:
   Planning(const Pattern& pattern, const PatternMesh& mesh, std::vector<Sheet> sheets,
-           const TearPatternOptions& options, Progress* progress)
+           const TearPatternOptions& options, TearMemory& memory, Progress* progress)
       : pattern_(pattern),
         options_(options),
+        memory_(memory),
         progress_(progress),
         partners_(find_seam_partners(mesh)),
         sheets_(std::move(sheets)) {
     plan_.panels.resize(sheets_.size());
     plan_.jobs.resize(sheets_.size());
+    stretched_.assign(sheets_.size(), false);
     twins_.resize(sheets_.size());
     if (options.symmetric) twins_ = find_panel_twins(pattern, sheets_);
     units_ = side_units(pattern, sheets_, partners_, twins_);
@@ -68,9 +70,11 @@ class Planning {
 
   const Pattern& pattern_;
   const TearPatternOptions& options_;
+  TearMemory& memory_;
   Progress* progress_;
   std::vector<std::vector<SeamPartner>> partners_;
   std::vector<Sheet> sheets_;
+  std::vector<char> stretched_;  // per panel; not of bits: panels are worked off at once
   std::vector<std::optional<PanelTwin>> twins_;
   TearUnits units_;
   std::vector<std::vector<TearSet>> sets_;  // per panel that chooses
@@ -81,11 +85,18 @@ class Planning {
 void Planning::stretch() {
   work_off(sheets_.size(), [&](std::size_t p) {
     SheetStress& before = plan_.panels[p].before;
-    before = measure_stress(sheets_[p], limit());
+    before = measure_stress(sheets_[p]);
     // The plain map is the start; where it has no tension it stays, and there is nothing to relax.
     if (locked(p) || share_of_limit(before, limit()) < 1.0) return;
-    relax(sheets_[p], options_.candidates.tear.relaxation, progress_);
-    before = measure_stress(sheets_[p], limit());
+    PanelMemory& known = memory_[p];
+    if (!known.stretched) {
+      const RelaxOptions& relaxation = options_.candidates.tear.relaxation;
+      relax(sheets_[p], relaxation, progress_, &equations_of(known.coarse, sheets_[p], relaxation.hold));
+      known.stretched = std::make_shared<const Sheet>(sheets_[p]);
+    }
+    sheets_[p] = *known.stretched;
+    stretched_[p] = true;
+    before = measure_stress(sheets_[p]);
   });
 }
 
@@ -98,7 +109,9 @@ void Planning::search_panel(std::size_t p, int first_unit) {
   search.tear.relaxation.energy_drop = 1e-3;
   search.removing = options_.removing;
   for (const KeepOut& keep : pattern_.panels[p].keep_outs) search.keep_outs.push_back(keep.polygon);
-  search_tears(sheets_[p], units_.of_panel[p], first_unit, search, sets_[p], trials_[p], progress_);
+  SheetEquations& equations = equations_of(memory_[p].coarse, sheets_[p], search.tear.relaxation.hold);
+  search_tears(sheets_[p], units_.of_panel[p], first_unit, search, equations, memory_[p].tried[stretched_[p] ? 1 : 0],
+               sets_[p], trials_[p], progress_);
 }
 
 void Planning::search_sides() {
@@ -205,27 +218,39 @@ Sheet released(const Sheet& planned, const PanelTearing& panel, const TearOption
   return sheet;
 }
 
-// Carries out a panel's tears on the garment's own mesh, from where the plan's cloth lies; what does not open there is
-// left out.
-void carry_out(Sheet& sheet, const Sheet& planned, PanelTearing& panel, std::vector<int>& jobs,
-               const TearPatternOptions& options, Progress* progress) {
-  const TearOptions& tearing = options.candidates.tear;
-  std::vector<Tear> tears;
-  for (const MadeTear& made : panel.tears) tears.push_back(carried(made.tear, planned, sheet));
-  SheetEquations equations(sheet, tearing.relaxation.hold);
+// Carries out tears on the garment's own mesh, from where the plan's cloth lies.
+CarriedOut carried_out(Sheet sheet, const Sheet& planned, const PanelTearing& panel, const std::vector<Tear>& tears,
+                       const TearOptions& tearing, SheetEquations& equations, Progress* progress) {
   const bool stretched_first = tears.empty() || tears.back().kind == TearKind::Edge;
   if (planned.cuts.empty()) lay_like(sheet, stretched_first ? planned : released(planned, panel, tearing, progress));
   // Cuts find their way in cloth that lies as it will be stretched.
   if (stretched_first) relax(sheet, tearing.relaxation, progress, &equations);
   // Cuts come last, and in the sheet they stand in the order of their tears.
-  const std::vector<TearOutcome> outcomes = propagate_tears(sheet, tears, tearing, progress, &equations);
+  std::vector<TearOutcome> outcomes = propagate_tears(sheet, tears, tearing, progress, &equations);
+  return {planned, tears, std::move(sheet), std::move(outcomes)};
+}
+
+// Carries out a panel's tears; what does not open on the garment's own mesh is left out.
+void carry_out(Sheet& sheet, const Sheet& planned, PanelTearing& panel, std::vector<int>& jobs,
+               const TearPatternOptions& options, PanelMemory& memory, Progress* progress) {
+  const TearOptions& tearing = options.candidates.tear;
+  std::vector<Tear> tears;
+  for (const MadeTear& made : panel.tears) tears.push_back(carried(made.tear, planned, sheet));
+  auto known = std::find_if(memory.carried_out.begin(), memory.carried_out.end(), [&](const CarriedOut& other) {
+    return other.tears == tears && lie_alike(other.planned, planned);
+  });
+  if (known == memory.carried_out.end())
+    known = memory.carried_out.insert(known,
+                                      carried_out(sheet, planned, panel, tears, tearing,
+                                                  equations_of(memory.fine, sheet, tearing.relaxation.hold), progress));
+  sheet = known->sheet;
   std::vector<MadeTear> made;
   std::vector<int> made_jobs;
   for (std::size_t i = 0; i < tears.size(); ++i) {
-    if (!outcomes[i].opened) continue;
+    if (!known->outcomes[i].opened) continue;
     made.push_back(panel.tears[i]);
     made.back().tear = tears[i];
-    made.back().largest_gap = outcomes[i].largest_gap;
+    made.back().largest_gap = known->outcomes[i].largest_gap;
     made_jobs.push_back(jobs[i]);
   }
   panel.tears = std::move(made);
@@ -244,24 +269,27 @@ void conclude(const Sheet& sheet, bool locked, double limit, PanelTearing& panel
 }  // namespace
 
 TornPattern tear_pattern(const Pattern& pattern, const Stretching& fine, const Stretching& coarse,
-                         const TearPatternOptions& options, Progress* progress) {
+                         const TearPatternOptions& options, TearMemory& memory, Progress* progress) {
+  memory.resize(pattern.panels.size());
   const bool in_rounds = options.choice.greedy || options.candidates.weighting == TearWeighting::Boundary;
   std::vector<Sheet> sheets = make_sheets(pattern, fine), coarse_sheets = make_sheets(pattern, coarse, &sheets);
-  TornPattern torn = in_rounds ? tear_in_rounds(pattern, coarse.mesh, std::move(coarse_sheets), options, progress)
-                               : Planning(pattern, coarse.mesh, std::move(coarse_sheets), options, progress).run();
+  TornPattern torn = in_rounds
+                         ? tear_in_rounds(pattern, coarse.mesh, std::move(coarse_sheets), options, progress)
+                         : Planning(pattern, coarse.mesh, std::move(coarse_sheets), options, memory, progress).run();
   const std::vector<Sheet> planned = std::move(torn.sheets);
   torn.sheets = std::move(sheets);
   const double limit = options.candidates.stretch_limit;
   work_off(torn.sheets.size(), [&](std::size_t p) {
     PanelTearing& panel = torn.panels[p];
-    const bool tense = !panel.tears.empty() || share_of_limit(measure_stress(torn.sheets[p], limit), limit) >= 1.0;
+    const bool tense = !panel.tears.empty() || share_of_limit(measure_stress(torn.sheets[p]), limit) >= 1.0;
     if (!pattern.panels[p].locked && tense)
-      carry_out(torn.sheets[p], planned[p], panel, torn.jobs[p], options, progress);
+      carry_out(torn.sheets[p], planned[p], panel, torn.jobs[p], options, memory[p], progress);
   });
-  couple_plies(pattern, fine.mesh, fine.wanted, limit, options.candidates.tear.relaxation, torn.sheets, progress);
+  couple_plies(pattern, fine.mesh, fine.wanted, limit, options.candidates.tear.relaxation, torn.sheets, &memory,
+               progress);
   work_off(torn.sheets.size(), [&](std::size_t p) {
     PanelTearing& panel = torn.panels[p];
-    panel.after = measure_stress(torn.sheets[p], limit);
+    panel.after = measure_stress(torn.sheets[p]);
     conclude(torn.sheets[p], pattern.panels[p].locked, limit, panel);
   });
   return torn;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "engine/alter/choose_tears.h"
+#include "engine/alter/tear_memory.h"
 
 namespace toile {
 
@@ -51,7 +52,8 @@ struct TornPattern {
   int reverted = 0;  // tears found redundant and undone
 };
 
+// `memory`: of the same pass with another stretch limit, or empty; grows.
 TornPattern tear_pattern(const Pattern& pattern, const Stretching& fine, const Stretching& coarse,
-                         const TearPatternOptions& options, Progress* progress = nullptr);
+                         const TearPatternOptions& options, TearMemory& memory, Progress* progress = nullptr);
 
 }  // namespace toile

@@ -46,7 +46,7 @@ std::vector<TearStep> tear_steps(const Pattern& pattern, const PatternMesh& mesh
       TearStep step{p, removing, {}, torn(stretched, tears, tearing), {}};
       std::copy_if(tears.begin(), tears.end(), std::back_inserter(step.tears),
                    [round](const MadeTear& made) { return made.round == round; });
-      step.stress = measure_stress(step.sheet, options.stretch_limit);
+      step.stress = measure_stress(step.sheet);
       steps.push_back(std::move(step));
       known = tears.size();
     }
