@@ -7,6 +7,7 @@
 
 #include "engine/alter/coarse_pattern.h"
 #include "engine/alter/cut_anew.h"
+#include "engine/alter/cut_panel.h"
 #include "engine/alter/panel_twins.h"
 #include "engine/alter/read_operations.h"
 #include "engine/alter/search_tears.h"
@@ -18,9 +19,8 @@
 namespace toile {
 namespace {
 
-constexpr int kPlanTriangles = 600;   // of the garment: tears are chosen on so many
-constexpr double kPastMouth = 0.001;  // m
-constexpr double kStrained = 2.0;     // times the allowed stretch: share of a panel's area that strain in it explains
+constexpr int kPlanTriangles = 600;  // of the garment: tears are chosen on so many
+constexpr double kStrained = 2.0;    // times the allowed stretch: share of a panel's area that strain in it explains
 constexpr double kMostImbalance = 0.01;  // of the garment's area, that strain may add up to
 constexpr double kMostMismatch = 5e-4;   // m, of two sides that are sewn to each other
 constexpr double kStricter = 0.7;        // of the limit before: what a plan with a stricter one is made with
@@ -43,83 +43,6 @@ TearPatternOptions pass_options(const Pattern& pattern, const AlterPatternOption
   return pass;
 }
 
-// Outlines of a panel's darts and slits, which the stretched sheet has filled; a little past the mouth, so that no skin
-// of cloth closes it.
-Loops wedge_outlines(const std::vector<DartWedge>& wedges, const Points2& rest) {
-  Loops outlines;
-  for (const DartWedge& wedge : wedges) {
-    std::vector<Vec2> loop;
-    const auto add_past = [&](const std::vector<int>& leg) {
-      const Vec2 mouth = rest.row(leg[0]), next = rest.row(leg[1]);
-      loop.emplace_back(mouth + kPastMouth * (mouth - next).normalized());
-    };
-    add_past(wedge.legs[1]);
-    for (const int v : wedge.legs[1]) loop.emplace_back(rest.row(v));
-    for (auto v = wedge.legs[0].rbegin() + 1; v != wedge.legs[0].rend(); ++v) loop.emplace_back(rest.row(*v));
-    add_past(wedge.legs[0]);
-    outlines.push_back(std::move(loop));
-  }
-  return outlines;
-}
-
-// The largest part: crumbs come from darts of the target that cross themselves.
-std::vector<Vec2> outline_without(const std::vector<Vec2>& outline, const Loops& wedges) {
-  if (wedges.empty()) return outline;
-  std::vector<Vec2> largest = outline;
-  double most = 0.0;
-  for (const PolygonWithHoles& part : polygon_difference({outline}, wedges))
-    if (area(part) > most) {
-      most = area(part);
-      largest = part.outline;
-    }
-  return largest;
-}
-
-std::vector<AlteredRegion> regions_of(const RecutPanel& recut, const std::string& prefix) {
-  std::vector<AlteredRegion> regions;
-  for (const PolygonWithHoles& opening : recut.openings)
-    regions.push_back({prefix + std::to_string(regions.size() + 1), opening, area(opening), -1});
-  return regions;
-}
-
-// Border edges of slits: cuts that end inside the cloth, whose lips lie on each other in the flat cloth.
-bool on_slit(const Sheet& sheet, const BorderEdge& edge) {
-  if (edge.side >= 0) return false;
-  const auto holds = [](const Cut& cut, int v) {
-    return std::any_of(cut.lips.begin(), cut.lips.end(),
-                       [v](const auto& lips) { return lips.first == v || lips.second == v; });
-  };
-  return std::any_of(sheet.cuts.begin(), sheet.cuts.end(), [&](const Cut& cut) {
-    return cut.lips.back().first == cut.lips.back().second && holds(cut, edge.from) && holds(cut, edge.to);
-  });
-}
-
-// The flat cloth as the cuts part it, less what is taken away.
-std::vector<PolygonWithHoles> kept_cloth(const Sheet& sheet, const RecutPanel& removal, const Loops& wedges) {
-  Loops taken = wedges;
-  for (const PolygonWithHoles& opening : removal.openings) taken.push_back(opening.outline);
-  std::vector<PolygonWithHoles> kept;
-  for (const auto& loop : border_loops(sheet)) {
-    std::vector<Vec2> outline;
-    for (const BorderEdge& edge : loop)
-      if (!on_slit(sheet, edge)) outline.push_back(sheet.vertices[static_cast<std::size_t>(edge.from)].flat);
-    if (taken.empty())
-      kept.push_back({outline, {}});
-    else
-      for (PolygonWithHoles& piece : polygon_difference({outline}, taken)) kept.push_back(std::move(piece));
-  }
-  return kept;
-}
-
-std::vector<std::vector<Vec2>> cut_lines(const Sheet& sheet) {
-  std::vector<std::vector<Vec2>> lines;
-  for (const Cut& cut : sheet.cuts) {
-    lines.emplace_back();
-    for (const auto& lips : cut.lips) lines.back().push_back(sheet.vertices[static_cast<std::size_t>(lips.first)].flat);
-  }
-  return lines;
-}
-
 void add_flag(AlterPatternResult& result, const std::string& panel, const char* pass, const PanelTearing& tearing) {
   if (tearing.done) return;
   char stretch[32];
@@ -139,8 +62,8 @@ void check_balance(AlterPatternResult& result, const PanelAlteration& panel, dou
   result.flags.push_back("panel " + panel.panel + ": pieces add up to " + share + " % more than its area");
 }
 
-// A panel that is cut anew has neither insertions nor removals. `targets`: with their darts filled.
-void forget_tears(const Pattern& pattern, const std::vector<std::vector<Vec2>>& targets, RecutPanels& recut_panels,
+// A panel that is cut anew has neither insertions nor removals.
+void forget_tears(const Pattern& pattern, const std::vector<CutPanel*>& cuts, RecutPanels& recut_panels,
                   AlterPatternResult& result) {
   for (auto& [p, anew] : recut_panels) {
     const auto index = static_cast<std::size_t>(p);
@@ -152,7 +75,7 @@ void forget_tears(const Pattern& pattern, const std::vector<std::vector<Vec2>>& 
     panel.cut_lines.clear();
     panel.cut_back = 0.0;
     anew.in_own_cloth =
-        place_in_own_cloth(pattern.panels[index], pattern.seam_allowance, panel.original, targets[index]);
+        place_in_own_cloth(pattern.panels[index], pattern.seam_allowance, panel.original, cuts[index]->filled_target);
   }
 }
 
@@ -200,26 +123,6 @@ void sum_up(const RecutPanels& anew, double stretch_limit, AlterPatternResult& r
       result.target_area;
 }
 
-PanelAlteration alteration_of(const Panel& panel, const TornPattern& inserting, const TornPattern& removing,
-                              std::size_t p, const std::array<RecutPanel, 2>& recut,
-                              const std::array<Loops, 2>& wedges) {
-  const auto& [insertion, removal] = recut;
-  const auto& [original_wedges, target_wedges] = wedges;
-  PanelAlteration result;
-  result.panel = panel.name;
-  result.original = outline_without(removal.wanted, original_wedges);
-  result.target = outline_without(insertion.wanted, target_wedges);
-  result.kept = kept_cloth(inserting.sheets[p], removal, original_wedges);
-  result.cut_lines = cut_lines(inserting.sheets[p]);
-  for (const auto& kept : insertion.kept) result.kept_in_target.push_back(outline_without(kept, target_wedges));
-  result.insertions = regions_of(insertion, panel.name + "_insertion_");
-  result.removals = regions_of(removal, panel.name + "_removal_");
-  result.insertion_pass = inserting.panels[p];
-  result.removal_pass = removing.panels[p];
-  result.cut_back = insertion.cut_back;
-  return result;
-}
-
 void tell_cut_back(const AlterPatternOptions& options, AlterPatternResult& result) {
   if (std::any_of(result.panels.begin(), result.panels.end(),
                   [](const PanelAlteration& panel) { return panel.cut_back > 0.0; }))
@@ -252,13 +155,15 @@ double strain_left(const AlterPatternResult& result, const RecutPanels& anew, do
 struct Torn {
   TornPattern inserting, removing;
 };
-struct TornMemory {
+// What earlier plans have found out.
+struct PlanMemory {
   TearMemory inserting, removing;
+  CutMemory cut;
 };
 
 // Tears that are planned with `share` of the allowed stretch.
 Torn tear_both(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest, const CoarsePattern& coarse,
-               const AlterPatternOptions& options, double share, TornMemory& memory, Progress* progress, bool at_once) {
+               const AlterPatternOptions& options, double share, PlanMemory& memory, Progress* progress, bool at_once) {
   AlterPatternOptions planned = options;
   planned.stretch_limit *= share;
   auto [inserting, removing] = side_by_side(
@@ -291,7 +196,7 @@ bool torn_alike(const TornPattern& a, const TornPattern& b) {
 
 // The alteration that was planned with `share` of the allowed stretch and tears so.
 AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                           const AlterPatternOptions& options, double share, const Torn& torn) {
+                           const AlterPatternOptions& options, double share, const Torn& torn, PlanMemory& memory) {
   const auto& [inserting, removing] = torn;
   AlterPatternResult result;
   result.planned_share = share;
@@ -299,22 +204,17 @@ AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, cons
   result.removal_rounds = removing.rounds;
   result.trials = inserting.trials + removing.trials;
   result.reverted = inserting.reverted + removing.reverted;
-  std::vector<std::vector<Vec2>> filled_targets;
+  std::vector<CutPanel*> cuts;
+  memory.cut.resize(pattern.panels.size());
   RecutPanels anew;
   for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
-    const Sheet& sheet = inserting.sheets[p];
-    RecutOptions insert_options, remove_options;
-    insert_options.l_shapes = remove_options.l_shapes = options.l_shapes;
-    insert_options.least_strip = options.least_strip;
-    insert_options.side_room = side_rooms(pattern, static_cast<int>(p), sheet.sides, options.least_allowance_left);
-    const std::array<Loops, 2> wedges = {wedge_outlines(sheet.wedges, mesh.rest),
-                                         wedge_outlines(sheet.wedges, target_rest)};
-    insert_options.wedges = wedges[1];
-    remove_options.wedges = wedges[0];
-    const std::array<RecutPanel, 2> recuts = {recut(sheet, insert_options), recut(removing.sheets[p], remove_options)};
-    filled_targets.push_back(recuts[0].wanted);
-    result.dropped_regions += recuts[0].dropped + recuts[1].dropped;
-    result.panels.push_back(alteration_of(pattern.panels[p], inserting, removing, p, recuts, wedges));
+    CutPanel& cut =
+        cut_panel(pattern, mesh, target_rest, p, inserting.sheets[p], removing.sheets[p], options, memory.cut[p]);
+    cuts.push_back(&cut);
+    result.dropped_regions += cut.dropped;
+    result.panels.push_back(cut.alteration);
+    result.panels.back().insertion_pass = inserting.panels[p];
+    result.panels.back().removal_pass = removing.panels[p];
     const std::string why = hopeless(result.panels.back(), options.stretch_limit);
     if (!why.empty() && !pattern.panels[p].locked) anew[static_cast<int>(p)].why = why;
   }
@@ -323,9 +223,9 @@ AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, cons
     twins = find_panel_twins(pattern, inserting.sheets);
   add_twins(pattern, twins, anew);
   for (std::size_t known = anew.size();; known = anew.size()) {  // what is cut anew changes what else there is to do
-    forget_tears(pattern, filled_targets, anew, result);
+    forget_tears(pattern, cuts, anew, result);
     read_operations(pattern, mesh, inserting, removing, options, anew, result);
-    result.sewn = sew_altered(pattern, mesh, target_rest, inserting, removing, result, anew);
+    result.sewn = sew_altered(pattern, mesh, target_rest, cuts, result, anew);
     add_twins(pattern, twins, anew);
     if (anew.size() == known) break;
   }
@@ -348,12 +248,12 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
                                  const AlterPatternOptions& options, Progress* progress, bool at_once) {
   assert(target_rest.rows() == mesh.vertex_count() && pattern.panels.size() == mesh.panels.size());
   const CoarsePattern coarse = coarsen(pattern, mesh, target_rest, kPlanTriangles);
-  TornMemory memory;
+  PlanMemory memory;
   const auto tear = [&](double share) {
     return tear_both(pattern, mesh, target_rest, coarse, options, share, memory, progress, at_once);
   };
   const auto with = [&](double share, const Torn& torn) {
-    return altered(pattern, mesh, target_rest, options, share, torn);
+    return altered(pattern, mesh, target_rest, options, share, torn, memory);
   };
   std::vector<Torn> tried;
   tried.push_back(tear(options.planned_share));

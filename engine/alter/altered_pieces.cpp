@@ -28,15 +28,9 @@ constexpr double kMostUnlike = 0.02;                          // m, of a seam wi
 
 class Cutting {
  public:
-  Cutting(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest, const TornPattern& inserting,
-          const TornPattern& removing, const AlterPatternResult& result, RecutPanels& recut)
-      : pattern_(pattern),
-        mesh_(mesh),
-        target_rest_(target_rest),
-        inserting_(inserting),
-        removing_(removing),
-        alteration_(result),
-        recut_(recut) {}
+  Cutting(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
+          const std::vector<CutPanel*>& cuts, const AlterPatternResult& result, RecutPanels& recut)
+      : pattern_(pattern), mesh_(mesh), target_rest_(target_rest), cuts_(cuts), alteration_(result), recut_(recut) {}
 
   AlteredPieces run() {
     for (int p = 0; p < static_cast<int>(pattern_.panels.size()); ++p)
@@ -60,7 +54,10 @@ class Cutting {
   };
   std::vector<bool> let_out(const PanelAlteration& panel) const;
   bool add_panel(int p);
-  std::string try_panel(int p, const AlteredParts& parts, bool recut);
+  PanelPieces altered_pieces(int p) const;
+  const PanelPieces& known_pieces(int p) const;
+  PanelPieces pieces_of(int p, const AlteredParts& parts, bool recut) const;
+  void take(PanelPieces&& pieces);
   KeptEdge kept_edge(int chain) const;
   bool all_meet();
   bool neighbours_meet();
@@ -73,7 +70,7 @@ class Cutting {
   const Pattern& pattern_;
   const PatternMesh& mesh_;
   const Points2& target_rest_;
-  const TornPattern &inserting_, &removing_;
+  const std::vector<CutPanel*>& cuts_;
   const AlterPatternResult& alteration_;
   RecutPanels& recut_;
   AlteredPieces cut_;
@@ -90,61 +87,101 @@ std::vector<bool> Cutting::let_out(const PanelAlteration& panel) const {
 
 // False, when not even the target panel can be cut.
 bool Cutting::add_panel(int p) {
-  const auto index = static_cast<std::size_t>(p);
-  const PanelAlteration& panel = alteration_.panels[index];
-  const bool altered = !panel.insertions.empty() || !panel.removals.empty();
-  const AlteredParts whole = whole_panel(mesh_, target_rest_, panel.target, p);
   const bool known = recut_.contains(p);
   std::string problem = known ? recut_.at(p).why : "";
-  for (const bool trims : {false, true}) {  // slivers are a reason, and only then a change
-    if (known || (trims && (!altered || problem.empty()))) break;
-    const AlteredParts parts =
-        altered ? part_altered_panel(mesh_, target_rest_, inserting_.sheets[index], removing_.sheets[index], panel,
-                                     let_out(panel), std::max(pattern_.seam_allowance, kLeastTurnIn), trims)
-                : whole;
-    const std::string found = parts.problem.empty() ? try_panel(p, parts, false) : parts.problem;
-    if (found.empty()) return true;
-    if (problem.empty()) problem = found;
+  if (!known) {
+    const PanelPieces& altered = known_pieces(p);
+    if (altered.problem.empty()) {
+      take(PanelPieces(altered));
+      return true;
+    }
+    problem = altered.problem;
   }
-  const std::string hopeless = try_panel(p, whole, true);
-  if (hopeless.empty()) {
+  const PanelAlteration& panel = alteration_.panels[static_cast<std::size_t>(p)];
+  PanelPieces whole = pieces_of(p, whole_panel(mesh_, target_rest_, panel.target, p), true);
+  if (whole.problem.empty()) {
+    take(std::move(whole));
     if (!known) recut_.emplace(p, CutAnew{problem, {}, -1});
     return true;
   }
-  cut_.flags.push_back("panel " + panel.panel + " cannot be sewn: " + hopeless);
+  cut_.flags.push_back("panel " + panel.panel + " cannot be sewn: " + whole.problem);
   cut_.pieces.clear();
   return false;
 }
 
-// Adds the panel's pieces; adds none and says why, when their cloth cannot be sewn.
-std::string Cutting::try_panel(int p, const AlteredParts& parts, bool recut) {
+void Cutting::take(PanelPieces&& panel) {
+  std::move(panel.pieces.begin(), panel.pieces.end(), std::back_inserter(cut_.pieces));
+  std::move(panel.borders.begin(), panel.borders.end(), std::back_inserter(cut_.borders));
+}
+
+Loops loops_of(const std::vector<AlteredRegion>& regions) {
+  Loops loops;
+  for (const AlteredRegion& region : regions) {
+    loops.push_back(region.shape.outline);
+    loops.insert(loops.end(), region.shape.holes.begin(), region.shape.holes.end());
+  }
+  return loops;
+}
+
+// Of a panel that is not cut anew; cut once for the same regions.
+const PanelPieces& Cutting::known_pieces(int p) const {
+  const PanelAlteration& panel = alteration_.panels[static_cast<std::size_t>(p)];
+  std::vector<KnownPieces>& known = cuts_[static_cast<std::size_t>(p)]->pieces;
+  const KnownPieces wanted{loops_of(panel.insertions), loops_of(panel.removals), let_out(panel), {}};
+  const auto found = std::find_if(known.begin(), known.end(), [&](const KnownPieces& pieces) {
+    return pieces.insertions == wanted.insertions && pieces.removals == wanted.removals &&
+           pieces.let_out == wanted.let_out;
+  });
+  if (found != known.end()) return found->cut;
+  known.push_back(wanted);
+  known.back().cut = altered_pieces(p);
+  return known.back().cut;
+}
+
+PanelPieces Cutting::altered_pieces(int p) const {
   const auto index = static_cast<std::size_t>(p);
-  const ClothSource source(inserting_.sheets[index], removing_.sheets[index], alteration_.panels[index]);
-  std::vector<SewnPiece> pieces;
-  std::vector<PieceBorder> borders;
+  const PanelAlteration& panel = alteration_.panels[index];
+  if (panel.insertions.empty() && panel.removals.empty())
+    return pieces_of(p, whole_panel(mesh_, target_rest_, panel.target, p), false);
+  std::string problem;
+  for (const bool trims : {false, true}) {  // slivers are a reason, and only then a change
+    const AlteredParts parts =
+        part_altered_panel(mesh_, target_rest_, cuts_[index]->inserting, cuts_[index]->removing, panel, let_out(panel),
+                           std::max(pattern_.seam_allowance, kLeastTurnIn), trims);
+    PanelPieces pieces = parts.problem.empty() ? pieces_of(p, parts, false) : PanelPieces{{}, {}, parts.problem};
+    if (pieces.problem.empty()) return pieces;
+    if (problem.empty()) problem = pieces.problem;
+  }
+  return {{}, {}, problem};
+}
+
+// `recut`: the panel is cut anew.
+PanelPieces Cutting::pieces_of(int p, const AlteredParts& parts, bool recut) const {
+  const auto index = static_cast<std::size_t>(p);
+  const Sheet& inserting = cuts_[index]->inserting;
+  const ClothSource source(inserting, cuts_[index]->removing, alteration_.panels[index]);
+  PanelPieces panel;
   for (std::size_t i = 0; i < parts.parts.size(); ++i) {
     const AlteredPart& part = parts.parts[i];
-    PieceCloth cloth = recut || part.insertion >= 0 ? identical_cloth(parts, i, inserting_.sheets[index].edge_length)
-                                                    : source.of(parts, i);
-    if (!cloth.problem.empty()) return cloth.problem;
+    PieceCloth cloth =
+        recut || part.insertion >= 0 ? identical_cloth(parts, i, inserting.edge_length) : source.of(parts, i);
+    if (!cloth.problem.empty()) return {{}, {}, cloth.problem};
     const bool own_cloth = recut && recut_.contains(p) && recut_.at(p).in_own_cloth;
     if (own_cloth) move_rest(*recut_.at(p).in_own_cloth, cloth.map);
-    if (cloth.turned_over > kMostTurnedOver) return "its cloth turns over";
+    if (cloth.turned_over > kMostTurnedOver) return {{}, {}, "its cloth turns over"};
     PieceBorder border{p, static_cast<int>(i), {}, part.loop};
     std::vector<Vec2> outline;
     for (int v = 0; v < cloth.map.border_count; ++v) outline.emplace_back(cloth.map.rest.row(v));
-    if (!is_simple_polygon(outline)) return "the outline of a kept piece crosses itself";
+    if (!is_simple_polygon(outline)) return {{}, {}, "the outline of a kept piece crosses itself"};
     for (std::size_t k = 0; k < part.loop.size(); ++k) {
       const int point = part.loop[k].from;
       border.vertices.push_back({point, parts.points[static_cast<std::size_t>(point)],
                                  cloth.map.rest.row(cloth.border[k]), parts.corner[static_cast<std::size_t>(point)]});
     }
-    borders.push_back(std::move(border));
-    pieces.push_back({p, part.insertion, recut, own_cloth, cloth.strain, cloth.turned_over, cloth.map});
+    panel.borders.push_back(std::move(border));
+    panel.pieces.push_back({p, part.insertion, recut, own_cloth, cloth.strain, cloth.turned_over, cloth.map});
   }
-  std::move(pieces.begin(), pieces.end(), std::back_inserter(cut_.pieces));
-  std::move(borders.begin(), borders.end(), std::back_inserter(cut_.borders));
-  return {};
+  return panel;
 }
 
 // Pieces of a panel whose edges are far from alike where they are sewn to each other: the panel is cut anew.
@@ -282,9 +319,9 @@ bool Cutting::all_sound() {
 }  // namespace
 
 AlteredPieces cut_altered_pieces(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                                 const TornPattern& inserting, const TornPattern& removing,
-                                 const AlterPatternResult& result, RecutPanels& recut) {
-  return Cutting(pattern, mesh, target_rest, inserting, removing, result, recut).run();
+                                 const std::vector<CutPanel*>& cuts, const AlterPatternResult& result,
+                                 RecutPanels& recut) {
+  return Cutting(pattern, mesh, target_rest, cuts, result, recut).run();
 }
 
 }  // namespace toile

@@ -6,6 +6,7 @@
 
 #include "engine/alter/chain_seams.h"
 #include "engine/alter/cut_anew.h"
+#include "engine/alter/cut_panel.h"
 #include "engine/alter/piece_edges.h"
 
 namespace toile {
@@ -33,7 +34,7 @@ struct AlteredPieces {
 
 // Panels whose pieces cannot be cut or sewn are added to `recut` and come as the target has them.
 AlteredPieces cut_altered_pieces(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                                 const TornPattern& inserting, const TornPattern& removing,
-                                 const AlterPatternResult& result, RecutPanels& recut);
+                                 const std::vector<CutPanel*>& cuts, const AlterPatternResult& result,
+                                 RecutPanels& recut);
 
 }  // namespace toile

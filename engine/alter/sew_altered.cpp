@@ -127,9 +127,8 @@ void tell_ticket(const SewnPattern& sewn, Ticket& ticket) {
 }
 
 SewnPattern sew_altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                        const TornPattern& inserting, const TornPattern& removing, const AlterPatternResult& result,
-                        RecutPanels& recut) {
-  const AlteredPieces cut = cut_altered_pieces(pattern, mesh, target_rest, inserting, removing, result, recut);
+                        const std::vector<CutPanel*>& cuts, const AlterPatternResult& result, RecutPanels& recut) {
+  const AlteredPieces cut = cut_altered_pieces(pattern, mesh, target_rest, cuts, result, recut);
   if (cut.pieces.empty()) {
     SewnPattern nothing;
     nothing.flags = cut.flags;

@@ -10,14 +10,15 @@
 
 #include "engine/alter/alter_pattern.h"
 #include "engine/alter/cut_anew.h"
+#include "engine/alter/cut_panel.h"
 
 namespace toile {
 
 // Requires result.panels and result.ticket of the same two passes. Panels that turn out not to be sewable as altered
-// are added to `recut`: then operations and pieces do not agree any more, and both are to be made again.
+// are added to `recut`: then operations and pieces do not agree any more, and both are to be made again. `cuts`: one
+// per panel.
 SewnPattern sew_altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                        const TornPattern& inserting, const TornPattern& removing, const AlterPatternResult& result,
-                        RecutPanels& recut);
+                        const std::vector<CutPanel*>& cuts, const AlterPatternResult& result, RecutPanels& recut);
 
 // Gives the ticket's pieces the sizes they have in the sewn pattern, and says what else the person who sews must know.
 void tell_ticket(const SewnPattern& sewn, Ticket& ticket);
