@@ -159,7 +159,7 @@ PanelPieces Cutting::altered_pieces(int p) const {
 PanelPieces Cutting::pieces_of(int p, const AlteredParts& parts, bool recut) const {
   const auto index = static_cast<std::size_t>(p);
   const Sheet& inserting = cuts_[index]->inserting;
-  const ClothSource source(inserting, cuts_[index]->removing, alteration_.panels[index]);
+  ClothSource source(inserting, cuts_[index]->removing, alteration_.panels[index]);
   PanelPieces panel;
   for (std::size_t i = 0; i < parts.parts.size(); ++i) {
     const AlteredPart& part = parts.parts[i];

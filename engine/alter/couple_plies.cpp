@@ -125,6 +125,16 @@ class Coupling {
     return known.back().after;
   }
 
+  // What is known of a sheet that was not cut serves it while it is held.
+  SheetEquations* equations_for(std::size_t p, double hold) const {
+    const auto& vertices = sheets_[p].vertices;
+    const PanelRange& range = mesh_.panels[p];
+    const bool uncut =
+        static_cast<int>(vertices.size()) == range.vertex_end - range.vertex_begin &&
+        std::all_of(vertices.begin(), vertices.end(), [](const SheetVertex& vertex) { return vertex.origin >= 0; });
+    return memory_ && uncut ? &equations_of((*memory_)[p].fine, sheets_[p], hold) : nullptr;
+  }
+
   // Adds a line across the seam on which the vertex hangs besides.
   Sheet held_sheet(std::size_t p, const RelaxOptions& options, Progress* progress) const {
     Sheet held = sheets_[p];
@@ -136,7 +146,7 @@ class Coupling {
         if (anchor.side != hold.side) anchor = {static_cast<int>(held.wanted_sides.size()), 0.0, true};
       held.wanted_sides.emplace_back(std::vector<Vec2>{point - across, point + across});
     }
-    relax(held, options, progress);
+    relax(held, options, progress, equations_for(p, options.hold));
     return held;
   }
 

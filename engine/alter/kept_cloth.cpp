@@ -15,30 +15,6 @@ constexpr double kLeastRun = 1e-3;  // m: shorter runs of border do not hold the
 constexpr double kCrossing = 0.02;  // m: from a corner to where the two curves that hold it cross, at most
 constexpr double kLongest = 1.3;    // of the edge length: longer borders are divided for the mesh
 
-// A sheet's faces between two layouts of its vertices.
-class SheetMap {
- public:
-  SheetMap(const Sheet& sheet, Vec2 SheetVertex::*from, Vec2 SheetVertex::*to)
-      : faces_(faces_of(sheet)), to_(layout(sheet, to)), locator_(layout(sheet, from), faces_) {}
-  Vec2 operator()(const Vec2& p) const { return locator_.extended(p).of(to_, faces_).transpose(); }
-
- private:
-  static Points2 layout(const Sheet& sheet, Vec2 SheetVertex::*where) {
-    Points2 points(sheet.vertex_count(), 2);
-    for (int v = 0; v < sheet.vertex_count(); ++v) points.row(v) = sheet.vertices[static_cast<std::size_t>(v)].*where;
-    return points;
-  }
-  static Triangles faces_of(const Sheet& sheet) {
-    Triangles faces(static_cast<Eigen::Index>(sheet.faces.size()), 3);
-    for (std::size_t f = 0; f < sheet.faces.size(); ++f)
-      for (int k = 0; k < 3; ++k) faces(static_cast<Eigen::Index>(f), k) = sheet.faces[f][static_cast<std::size_t>(k)];
-    return faces;
-  }
-  Triangles faces_;
-  Points2 to_;
-  FlatLocator locator_;
-};
-
 void judge(PieceCloth& cloth) {
   std::vector<std::pair<double, double>> stretch;  // value, area
   double area = 0.0, turned = 0.0;
@@ -98,9 +74,35 @@ bool cross_near(const SideCurve& a, const SideCurve& b, const Vec2& corner) {
   return (corner - first.point).norm() + (corner - second.point).norm() < kCrossing * sine;
 }
 
+}  // namespace
+
+// A sheet's faces between two layouts of its vertices.
+class ClothSource::SheetMap {
+ public:
+  SheetMap(const Sheet& sheet, Vec2 SheetVertex::*from, Vec2 SheetVertex::*to)
+      : faces_(faces_of(sheet)), to_(layout(sheet, to)), locator_(layout(sheet, from), faces_) {}
+  Vec2 operator()(const Vec2& p) const { return locator_.extended(p).of(to_, faces_).transpose(); }
+
+ private:
+  static Points2 layout(const Sheet& sheet, Vec2 SheetVertex::*where) {
+    Points2 points(sheet.vertex_count(), 2);
+    for (int v = 0; v < sheet.vertex_count(); ++v) points.row(v) = sheet.vertices[static_cast<std::size_t>(v)].*where;
+    return points;
+  }
+  static Triangles faces_of(const Sheet& sheet) {
+    Triangles faces(static_cast<Eigen::Index>(sheet.faces.size()), 3);
+    for (std::size_t f = 0; f < sheet.faces.size(); ++f)
+      for (int k = 0; k < 3; ++k) faces(static_cast<Eigen::Index>(f), k) = sheet.faces[f][static_cast<std::size_t>(k)];
+    return faces;
+  }
+  Triangles faces_;
+  Points2 to_;
+  FlatLocator locator_;
+};
+
 // Hangs every run of border that one pass made on the curve where that pass has it, to slide there.
-void attach_borders(const AlteredPart& part, const PieceCloth& cloth, const SheetMap& inserted, const SheetMap& removed,
-                    Sheet& sheet) {
+void ClothSource::attach_borders(const AlteredPart& part, const PieceCloth& cloth, const SheetMap& inserted,
+                                 const SheetMap& removed, Sheet& sheet) {
   const std::size_t count = part.loop.size();
   const auto same = [&](std::size_t a, std::size_t b) {
     return part.loop[a].neighbour == part.loop[b].neighbour && part.loop[a].track == part.loop[b].track;
@@ -135,19 +137,28 @@ void attach_borders(const AlteredPart& part, const PieceCloth& cloth, const Shee
   }
 }
 
-}  // namespace
-
 ClothSource::ClothSource(const Sheet& inserting, const Sheet& removing, const PanelAlteration& alteration)
     : inserting_(inserting),
       removing_(removing),
       inserts_(!alteration.insertions.empty()),
       removes_(!alteration.removals.empty()) {}
 
-PieceCloth ClothSource::of(const AlteredParts& parts, std::size_t part) const {
+ClothSource::~ClothSource() = default;
+
+const ClothSource::SheetMap& ClothSource::inserted() {
+  if (!inserted_) inserted_ = std::make_unique<SheetMap>(inserting_, &SheetVertex::now, &SheetVertex::flat);
+  return *inserted_;
+}
+
+const ClothSource::SheetMap& ClothSource::removed() {
+  if (!removed_) removed_ = std::make_unique<SheetMap>(removing_, &SheetVertex::flat, &SheetVertex::now);
+  return *removed_;
+}
+
+PieceCloth ClothSource::of(const AlteredParts& parts, std::size_t part) {
   PieceCloth cloth = mesh_part(parts, parts.parts[part], inserting_.edge_length);
   if (!cloth.problem.empty()) return cloth;
-  const SheetMap source = inserts_ || !removes_ ? SheetMap(inserting_, &SheetVertex::now, &SheetVertex::flat)
-                                                : SheetMap(removing_, &SheetVertex::flat, &SheetVertex::now);
+  const SheetMap& source = inserts_ || !removes_ ? inserted() : removed();
   for (Eigen::Index v = 0; v < cloth.map.target.rows(); ++v)
     cloth.map.rest.row(v) = source(cloth.map.target.row(v).transpose());
   if (inserts_ && removes_) relax_both(parts.parts[part], cloth);
@@ -155,9 +166,7 @@ PieceCloth ClothSource::of(const AlteredParts& parts, std::size_t part) const {
   return cloth;
 }
 
-void ClothSource::relax_both(const AlteredPart& part, PieceCloth& cloth) const {
-  const SheetMap inserted(inserting_, &SheetVertex::now, &SheetVertex::flat);
-  const SheetMap removed(removing_, &SheetVertex::flat, &SheetVertex::now);
+void ClothSource::relax_both(const AlteredPart& part, PieceCloth& cloth) {
   Sheet sheet;
   sheet.panel = inserting_.panel;
   sheet.edge_length = inserting_.edge_length;
@@ -170,7 +179,7 @@ void ClothSource::relax_both(const AlteredPart& part, PieceCloth& cloth) const {
   for (Eigen::Index f = 0; f < cloth.map.triangles.rows(); ++f)
     sheet.faces.push_back({cloth.map.triangles(f, 0), cloth.map.triangles(f, 1), cloth.map.triangles(f, 2)});
   sheet.folded.assign(sheet.faces.size(), false);
-  attach_borders(part, cloth, inserted, removed, sheet);
+  attach_borders(part, cloth, inserted(), removed(), sheet);
   relax(sheet, {.hold = 0.0});  // the guide tells lengths here, not places
   for (Eigen::Index v = 0; v < cloth.map.rest.rows(); ++v)
     cloth.map.rest.row(v) = sheet.vertices[static_cast<std::size_t>(v)].now;

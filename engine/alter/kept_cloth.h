@@ -3,6 +3,8 @@
 // the stretch the alteration leaves. Used by sew_altered only.   Lengths in metres.
 #pragma once
 
+#include <memory>
+
 #include "engine/alter/altered_regions.h"
 #include "engine/alter/sewn_pattern.h"
 
@@ -22,13 +24,21 @@ struct PieceCloth {
 class ClothSource {
  public:
   ClothSource(const Sheet& inserting, const Sheet& removing, const PanelAlteration& alteration);
-  PieceCloth of(const AlteredParts& parts, std::size_t part) const;
+  ~ClothSource();
+  PieceCloth of(const AlteredParts& parts, std::size_t part);
 
  private:
-  void relax_both(const AlteredPart& part, PieceCloth& cloth) const;
+  class SheetMap;
+  const SheetMap& inserted();
+  const SheetMap& removed();
+  void relax_both(const AlteredPart& part, PieceCloth& cloth);
+  static void attach_borders(const AlteredPart& part, const PieceCloth& cloth, const SheetMap& inserted,
+                             const SheetMap& removed, Sheet& sheet);
 
   const Sheet &inserting_, &removing_;
   bool inserts_, removes_;
+  std::unique_ptr<SheetMap> inserted_,
+      removed_;  // from the wanted panel to the original one, made when they are needed
 };
 
 // Of cloth that stays as it lies in the wanted panel.

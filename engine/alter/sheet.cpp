@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <span>
 
 namespace toile {
 namespace {
@@ -93,14 +94,30 @@ Sheet make_sheet(const Pattern& pattern, const PatternMesh& mesh, const Points2&
 }
 
 std::vector<BorderEdge> border_edges(const Sheet& sheet) {
-  std::vector<std::pair<int, int>> directed;
+  // Where the edges that leave a vertex lead to, vertex by vertex.
+  std::vector<int> begin(sheet.vertices.size() + 1, 0), ends(3 * sheet.faces.size());
   for (const auto& face : sheet.faces)
-    for (std::size_t i = 0; i < 3; ++i) directed.emplace_back(face[i], face[(i + 1) % 3]);
-  std::sort(directed.begin(), directed.end());
+    for (const int v : face) ++begin[static_cast<std::size_t>(v) + 1];
+  for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
+  std::vector<int> next(begin.begin(), begin.end() - 1);
+  for (const auto& face : sheet.faces)
+    for (std::size_t i = 0; i < 3; ++i)
+      ends[static_cast<std::size_t>(next[static_cast<std::size_t>(face[i])]++)] = face[(i + 1) % 3];
+  const auto leaving = [&](int v) {
+    const auto i = static_cast<std::size_t>(v);
+    return std::span<int>(ends).subspan(static_cast<std::size_t>(begin[i]),
+                                        static_cast<std::size_t>(begin[i + 1] - begin[i]));
+  };
   std::vector<BorderEdge> border;
-  for (const auto& [from, to] : directed)
-    if (!std::binary_search(directed.begin(), directed.end(), std::pair(to, from)))
-      border.push_back({from, to, side_of_edge(sheet, from, to)});
+  for (int from = 0; from < sheet.vertex_count(); ++from) {
+    const std::span<int> to = leaving(from);
+    std::sort(to.begin(), to.end());
+    for (const int v : to) {
+      const std::span<int> back = leaving(v);
+      if (std::find(back.begin(), back.end(), from) == back.end())
+        border.push_back({from, v, side_of_edge(sheet, from, v)});
+    }
+  }
   return border;
 }
 

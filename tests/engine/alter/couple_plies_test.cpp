@@ -57,6 +57,23 @@ TEST(CouplePlies, BringsTogetherWhatEveryPanelStretchesForItself) {
   EXPECT_LT(farthest_apart(panels.garment, panels.sheets), kAlike);
 }
 
+TEST(CouplePlies, WhatIsRememberedLiesAsWhatIsHeldAnew) {
+  Stretched alone, first, again;
+  TearMemory memory(2);
+  const auto couple = [&](Stretched& panels) {
+    couple_plies(panels.garment.pattern, panels.garment.mesh, panels.wanted, kLimit, {}, panels.sheets, &memory);
+  };
+  alone.couple(kLimit);
+  couple(first);
+  ASSERT_EQ(memory[0].held.size(), 1u);
+  couple(again);
+  EXPECT_EQ(memory[0].held.size(), 1u);
+  for (std::size_t p = 0; p < 2; ++p) {
+    EXPECT_TRUE(lie_alike(first.sheets[p], alone.sheets[p])) << p;
+    EXPECT_TRUE(lie_alike(again.sheets[p], alone.sheets[p])) << p;
+  }
+}
+
 TEST(CouplePlies, ALockedPanelHoldsTheOther) {
   Stretched panels;
   panels.garment.pattern.panels[0].locked = true;
