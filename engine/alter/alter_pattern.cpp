@@ -159,6 +159,7 @@ struct Torn {
 struct PlanMemory {
   TearMemory inserting, removing;
   CutMemory cut;
+  SewMemory sewing;
 };
 
 // Tears that are planned with `share` of the allowed stretch.
@@ -225,7 +226,7 @@ AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, cons
   for (std::size_t known = anew.size();; known = anew.size()) {  // what is cut anew changes what else there is to do
     forget_tears(pattern, cuts, anew, result);
     read_operations(pattern, mesh, inserting, removing, options, anew, result);
-    result.sewn = sew_altered(pattern, mesh, target_rest, cuts, result, anew);
+    result.sewn = sew_altered(pattern, mesh, target_rest, cuts, result, anew, memory.sewing);
     add_twins(pattern, twins, anew);
     if (anew.size() == known) break;
   }

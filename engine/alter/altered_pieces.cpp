@@ -5,7 +5,6 @@
 #include <map>
 
 #include "engine/alter/kept_cloth.h"
-#include "engine/alter/true_seams.h"
 #include "engine/geometry/inner_point.h"
 
 namespace toile {
@@ -29,8 +28,14 @@ constexpr double kMostUnlike = 0.02;                          // m, of a seam wi
 class Cutting {
  public:
   Cutting(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-          const std::vector<CutPanel*>& cuts, const AlterPatternResult& result, RecutPanels& recut)
-      : pattern_(pattern), mesh_(mesh), target_rest_(target_rest), cuts_(cuts), alteration_(result), recut_(recut) {}
+          const std::vector<CutPanel*>& cuts, const AlterPatternResult& result, RecutPanels& recut, SewMemory& memory)
+      : pattern_(pattern),
+        mesh_(mesh),
+        target_rest_(target_rest),
+        cuts_(cuts),
+        alteration_(result),
+        recut_(recut),
+        memory_(memory) {}
 
   AlteredPieces run() {
     for (int p = 0; p < static_cast<int>(pattern_.panels.size()); ++p)
@@ -73,6 +78,7 @@ class Cutting {
   const std::vector<CutPanel*>& cuts_;
   const AlterPatternResult& alteration_;
   RecutPanels& recut_;
+  SewMemory& memory_;
   AlteredPieces cut_;
 };
 
@@ -258,7 +264,7 @@ void Cutting::true_and_draw() {
   std::vector<bool> fixed = fixed_pieces();
   for (int pass = 0;; ++pass) {
     std::vector<bool> failed =
-        true_seams(cut_.chains, cut_.seams, fixed, mesh_.target_edge_length, cut_.borders, cut_.pieces);
+        true_seams(cut_.chains, cut_.seams, fixed, mesh_.target_edge_length, cut_.borders, cut_.pieces, &memory_.trued);
     draw_pieces();
     for (std::size_t i = 0; i < failed.size(); ++i)
       if (!cut_.drawn[i].edges.sound && cut_.borders[i].trued) failed[i] = true;
@@ -296,9 +302,21 @@ void Cutting::draw_pieces() {
 
 void Cutting::draw_edges(std::size_t i) {
   const SewnPiece& piece = cut_.pieces[i];
+  DrawnPiece& drawn = cut_.drawn[i];
   const bool kept = piece.insertion < 0 && !piece.recut;
-  cut_.drawn[i].edges = draw_piece_edges(cut_.borders[i], cut_.drawn[i].chains,
-                                         kept ? &pattern_.panels[static_cast<std::size_t>(piece.panel)] : nullptr);
+  const auto same = [](const BorderChain& chain, const BorderChain* other) {
+    return chain.vertices == other->vertices && chain.along == other->along;
+  };
+  for (const KnownDrawing& known : memory_.drawn)
+    if (known.kept == kept && known.border == cut_.borders[i] &&
+        std::equal(known.chains.begin(), known.chains.end(), drawn.chains.begin(), drawn.chains.end(), same)) {
+      drawn.edges = known.edges;
+      return;
+    }
+  drawn.edges = draw_piece_edges(cut_.borders[i], drawn.chains,
+                                 kept ? &pattern_.panels[static_cast<std::size_t>(piece.panel)] : nullptr);
+  memory_.drawn.push_back({cut_.borders[i], kept, {}, drawn.edges});
+  for (const BorderChain* chain : drawn.chains) memory_.drawn.back().chains.push_back(*chain);
 }
 
 // Small and narrow pieces can be nothing, or touch themselves, once they are drawn: their panel is cut anew, and where
@@ -320,8 +338,8 @@ bool Cutting::all_sound() {
 
 AlteredPieces cut_altered_pieces(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
                                  const std::vector<CutPanel*>& cuts, const AlterPatternResult& result,
-                                 RecutPanels& recut) {
-  return Cutting(pattern, mesh, target_rest, cuts, result, recut).run();
+                                 RecutPanels& recut, SewMemory& memory) {
+  return Cutting(pattern, mesh, target_rest, cuts, result, recut, memory).run();
 }
 
 }  // namespace toile

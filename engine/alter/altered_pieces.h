@@ -8,6 +8,7 @@
 #include "engine/alter/cut_anew.h"
 #include "engine/alter/cut_panel.h"
 #include "engine/alter/piece_edges.h"
+#include "engine/alter/true_seams.h"
 
 namespace toile {
 
@@ -32,9 +33,23 @@ struct AlteredPieces {
   AlteredPieces& operator=(AlteredPieces&&) = default;
 };
 
+// A piece as it was drawn.
+struct KnownDrawing {
+  PieceBorder border;
+  bool kept = false;  // cut from the original panel
+  std::vector<BorderChain> chains;
+  PieceEdges edges;
+};
+
+// What is found out about pieces; another plan, or the same one where a panel is cut anew, may have them again.
+struct SewMemory {
+  std::list<KnownTruing> trued;
+  std::list<KnownDrawing> drawn;
+};
+
 // Panels whose pieces cannot be cut or sewn are added to `recut` and come as the target has them.
 AlteredPieces cut_altered_pieces(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
                                  const std::vector<CutPanel*>& cuts, const AlterPatternResult& result,
-                                 RecutPanels& recut);
+                                 RecutPanels& recut, SewMemory& memory);
 
 }  // namespace toile

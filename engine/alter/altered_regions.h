@@ -29,6 +29,7 @@ struct RegionBorder {
   BorderTrack track;
   double at_from = 0.0, at_to = 0.0;  // places on the track: number of the mesh vertex along the edge and the share
                                       // of the way to the next one; arc length along a cut, m
+  bool operator==(const RegionBorder&) const = default;
 };
 
 struct AlteredPart {

@@ -127,8 +127,9 @@ void tell_ticket(const SewnPattern& sewn, Ticket& ticket) {
 }
 
 SewnPattern sew_altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                        const std::vector<CutPanel*>& cuts, const AlterPatternResult& result, RecutPanels& recut) {
-  const AlteredPieces cut = cut_altered_pieces(pattern, mesh, target_rest, cuts, result, recut);
+                        const std::vector<CutPanel*>& cuts, const AlterPatternResult& result, RecutPanels& recut,
+                        SewMemory& memory) {
+  const AlteredPieces cut = cut_altered_pieces(pattern, mesh, target_rest, cuts, result, recut, memory);
   if (cut.pieces.empty()) {
     SewnPattern nothing;
     nothing.flags = cut.flags;

@@ -8,9 +8,7 @@
 // overlap, cloth that turns over) is cut anew to the target.   Lengths in metres.
 #pragma once
 
-#include "engine/alter/alter_pattern.h"
-#include "engine/alter/cut_anew.h"
-#include "engine/alter/cut_panel.h"
+#include "engine/alter/altered_pieces.h"
 
 namespace toile {
 
@@ -18,7 +16,8 @@ namespace toile {
 // are added to `recut`: then operations and pieces do not agree any more, and both are to be made again. `cuts`: one
 // per panel.
 SewnPattern sew_altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                        const std::vector<CutPanel*>& cuts, const AlterPatternResult& result, RecutPanels& recut);
+                        const std::vector<CutPanel*>& cuts, const AlterPatternResult& result, RecutPanels& recut,
+                        SewMemory& memory);
 
 // Gives the ticket's pieces the sizes they have in the sewn pattern, and says what else the person who sews must know.
 void tell_ticket(const SewnPattern& sewn, Ticket& ticket);

@@ -14,6 +14,7 @@ struct BorderVertex {
   int point = -1;  // of AlteredParts; -1 where another ply's corner was added
   Vec2 target = Vec2::Zero(), rest = Vec2::Zero();
   bool corner = false;
+  bool operator==(const BorderVertex&) const = default;
 };
 
 // One piece on its way to a panel: vertices counter-clockwise, borders[i] from vertex i to the next.
@@ -22,6 +23,7 @@ struct PieceBorder {
   std::vector<BorderVertex> vertices;
   std::vector<RegionBorder> borders;
   bool trued = false;  // its cloth was moved off the lines it came from
+  bool operator==(const PieceBorder&) const = default;
 };
 
 // A run of border between two corners with one thing on its other side.

@@ -19,8 +19,8 @@ constexpr double kUnstrained = 0.02;    // of the lengths sewn: how much cloth w
 class Truing {
  public:
   Truing(const std::vector<BorderChain>& chains, const std::vector<ChainSeam>& seams, const std::vector<bool>& fixed,
-         std::vector<PieceBorder>& borders, std::vector<SewnPiece>& pieces)
-      : chains_(chains), seams_(seams), fixed_(fixed), borders_(borders), pieces_(pieces) {
+         std::vector<PieceBorder>& borders, std::vector<SewnPiece>& pieces, std::list<KnownTruing>* known)
+      : chains_(chains), seams_(seams), fixed_(fixed), borders_(borders), pieces_(pieces), known_(known) {
     for (const BorderChain& chain : chains)
       length_.push_back(chain_length(borders[static_cast<std::size_t>(chain.piece)], chain));
     wanted_ = length_;
@@ -123,10 +123,36 @@ class Truing {
   }
 
   bool true_piece(std::size_t i, double edge_length) {
-    TruedPiece piece(borders_[i], pieces_[i].map, scale_[i], is_new_piece(i), edge_length);
+    PieceMap& map = pieces_[i].map;
+    KnownTruing piece{borders_[i], map.rest, map.target, scale_[i], is_new_piece(i), {}, false, {}, {}};
+    std::vector<const BorderChain*> wanted;
     for (std::size_t c = 0; c < chains_.size(); ++c)
-      if (static_cast<std::size_t>(chains_[c].piece) == i && sewn_[c]) piece.want(chains_[c], wanted_[c]);
-    return piece.give(borders_[i], pieces_[i].map);
+      if (static_cast<std::size_t>(chains_[c].piece) == i && sewn_[c]) {
+        wanted.push_back(&chains_[c]);
+        piece.wanted.emplace_back(chains_[c].vertices, wanted_[c]);
+      }
+    if (const KnownTruing* known = find(piece)) {
+      borders_[i] = known->border_after;
+      map.rest = known->rest_after;
+      return known->given;
+    }
+    TruedPiece trued(borders_[i], map, scale_[i], piece.is_new, edge_length);
+    for (std::size_t k = 0; k < wanted.size(); ++k) trued.want(*wanted[k], piece.wanted[k].second);
+    const bool given = piece.given = trued.give(borders_[i], map);
+    piece.border_after = borders_[i];
+    piece.rest_after = map.rest;
+    if (known_) known_->push_back(std::move(piece));
+    return given;
+  }
+
+  const KnownTruing* find(const KnownTruing& piece) const {
+    if (!known_) return nullptr;
+    const auto same = [](const Points2& a, const Points2& b) { return a.rows() == b.rows() && a == b; };
+    for (const KnownTruing& known : *known_)
+      if (known.is_new == piece.is_new && known.scale == piece.scale && known.wanted == piece.wanted &&
+          known.border == piece.border && same(known.rest, piece.rest) && same(known.target, piece.target))
+        return &known;
+    return nullptr;
   }
 
   const std::vector<BorderChain>& chains_;
@@ -134,6 +160,7 @@ class Truing {
   const std::vector<bool>& fixed_;
   std::vector<PieceBorder>& borders_;
   std::vector<SewnPiece>& pieces_;
+  std::list<KnownTruing>* known_;
   std::vector<double> length_, wanted_;  // per chain
   std::vector<bool> sewn_;               // per chain: a length is wanted of it
   std::vector<Vec2> scale_;              // per piece
@@ -143,8 +170,8 @@ class Truing {
 
 std::vector<bool> true_seams(const std::vector<BorderChain>& chains, const std::vector<ChainSeam>& seams,
                              const std::vector<bool>& fixed, double edge_length, std::vector<PieceBorder>& borders,
-                             std::vector<SewnPiece>& pieces) {
-  return Truing(chains, seams, fixed, borders, pieces).run(edge_length);
+                             std::vector<SewnPiece>& pieces, std::list<KnownTruing>* known) {
+  return Truing(chains, seams, fixed, borders, pieces, known).run(edge_length);
 }
 
 }  // namespace toile

@@ -8,15 +8,29 @@
 // sew_altered only.   Lengths in metres.
 #pragma once
 
+#include <list>
+
 #include "engine/alter/chain_seams.h"
 #include "engine/alter/sewn_pattern.h"
 
 namespace toile {
 
+// A piece as it was trued for lengths of its chains, or could not be.
+struct KnownTruing {
+  PieceBorder border;
+  Points2 rest, target;  // of its map
+  Vec2 scale = Vec2::Ones();
+  bool is_new = false;
+  std::vector<std::pair<std::vector<int>, double>> wanted;  // vertices of a chain, and its length
+  bool given = false;
+  PieceBorder border_after;
+  Points2 rest_after;
+};
+
 // Changes `rest` of borders and maps. `fixed`: per piece, cannot change. Returns, per piece, whether it stayed as it
-// was although other lengths were wanted of it: its outline would have crossed itself.
+// was although other lengths were wanted of it: its outline would have crossed itself. `known`: looked up and added to.
 std::vector<bool> true_seams(const std::vector<BorderChain>& chains, const std::vector<ChainSeam>& seams,
                              const std::vector<bool>& fixed, double edge_length, std::vector<PieceBorder>& borders,
-                             std::vector<SewnPiece>& pieces);
+                             std::vector<SewnPiece>& pieces, std::list<KnownTruing>* known = nullptr);
 
 }  // namespace toile

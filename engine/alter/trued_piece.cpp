@@ -7,7 +7,6 @@
 #include "engine/geometry/flat_locator.h"
 #include "engine/geometry/mesh_polygon.h"
 #include "engine/geometry/polygon_boolean.h"
-#include "engine/numerics/sparse_solver.h"
 
 namespace toile {
 namespace {
@@ -103,7 +102,7 @@ bool TruedPiece::fit() {
   return is_simple_polygon({now_.begin(), now_.begin() + border_count_});
 }
 
-void TruedPiece::add_row(const std::vector<std::pair<int, Vec2>>& row, double residual) {
+void TruedPiece::add_row(std::initializer_list<std::pair<int, Vec2>> row, double residual) {
   for (const auto& [v, slope] : row)
     for (int k = 0; k < 2; ++k) {
       right_(2 * v + k) -= slope[k] * residual;
@@ -155,9 +154,8 @@ double TruedPiece::step() {
   }
   SparseMatrix matrix(2 * count, 2 * count);
   matrix.setFromTriplets(entries_.begin(), entries_.end());
-  SparseSolver solver;
-  if (!solver.factor(matrix)) return 0.0;
-  const Eigen::MatrixXd moved = solver.solve(right_);
+  if (!solver_.factor(matrix)) return 0.0;
+  const Eigen::MatrixXd moved = solver_.solve(right_);
   for (int v = 0; v < count; ++v) now_[static_cast<std::size_t>(v)] += Vec2(moved(2 * v), moved(2 * v + 1));
   return moved.cwiseAbs().maxCoeff();
 }

@@ -10,6 +10,7 @@
 #include <Eigen/Sparse>
 
 #include "engine/alter/sewn_borders.h"
+#include "engine/numerics/sparse_solver.h"
 
 namespace toile {
 
@@ -31,7 +32,7 @@ class TruedPiece {
   };
   bool fit();
   double step();
-  void add_row(const std::vector<std::pair<int, Vec2>>& row, double residual);
+  void add_row(std::initializer_list<std::pair<int, Vec2>> row, double residual);
   void add_metric(Eigen::Index f);
   const Vec2& before(int v) const { return before_[static_cast<std::size_t>(v)]; }
 
@@ -45,6 +46,7 @@ class TruedPiece {
   std::vector<double> area_;  // per point
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::VectorXd right_;
+  SparseSolver solver_;
 };
 
 }  // namespace toile

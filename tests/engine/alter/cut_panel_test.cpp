@@ -53,11 +53,17 @@ TEST(CutPanel, PiecesAreKnownForTheSameRegionsOnly) {
   AlterPatternResult result;
   result.panels = {panel.alteration};
   RecutPanels recut;
+  SewMemory memory;
   const auto sewn = [&] {
-    return sew_altered(widened.garment.pattern, widened.garment.mesh, widened.wanted, {&panel}, result, recut);
+    return sew_altered(widened.garment.pattern, widened.garment.mesh, widened.wanted, {&panel}, result, recut, memory);
   };
-  const SewnPattern first = sewn(), again = sewn();
+  const SewnPattern first = sewn();
+  const std::size_t drawn = memory.drawn.size(), trued = memory.trued.size();
+  EXPECT_GT(drawn, 0u);
+  const SewnPattern again = sewn();
   EXPECT_EQ(panel.pieces.size(), 1u);
+  EXPECT_EQ(memory.drawn.size(), drawn);
+  EXPECT_EQ(memory.trued.size(), trued);
   ASSERT_EQ(first.pieces.size(), again.pieces.size());
   ASSERT_GT(first.pieces.size(), 1u);
   for (std::size_t i = 0; i < first.pieces.size(); ++i)

@@ -81,6 +81,27 @@ TEST(TrueSeams, KeptClothMeetsInTheMiddle) {
   EXPECT_NEAR(pair.pieces[0].map.rest.col(1).maxCoeff(), 0.3015, 5e-4);  // its map moves with it
 }
 
+Pair trued(double height_b, std::list<KnownTruing>& known) {
+  Pair pair(0.300, height_b);
+  true_seams(pair.chains, pair.seams, {false, false}, 0.05, pair.borders, pair.pieces, &known);
+  return pair;
+}
+
+TEST(TrueSeams, WhatIsKnownComesOutAsItDid) {
+  std::list<KnownTruing> known;
+  const Pair first = trued(0.306, known);
+  ASSERT_EQ(known.size(), 2u);
+  const Pair again = trued(0.306, known);
+  EXPECT_EQ(known.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_TRUE(again.borders[i] == first.borders[i]) << i;
+    EXPECT_TRUE(again.pieces[i].map.rest == first.pieces[i].map.rest) << i;
+  }
+  const Pair other = trued(0.304, known);
+  EXPECT_EQ(known.size(), 4u);
+  EXPECT_NEAR(other.length(1), 0.302, kExact);
+}
+
 TEST(TrueSeams, WhatTheWantedPatternEasesStaysEased) {
   Pair pair(0.300, 0.306);
   pair.seams[0].eased = -0.006;
