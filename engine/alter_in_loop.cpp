@@ -23,18 +23,28 @@ std::tuple<int, int, double> rank(const PlacedPlans& place, const TriedPlan& pla
   return {plan.faults + (place.in_place(plan) ? 0 : 1), plan.operations, plan.position};
 }
 
+std::optional<double> position_meshed_anew(const AlterationScene& scene, const Pattern& target, double edge_length,
+                                           DrapeSeries& on_target, const DrapeOptions& options, Progress* progress) {
+  const DrapedAlteration worn =
+      drape_altered(scene, uncut(target, scene.target), edge_length, on_target, options, progress);
+  return worn.problem.empty() ? std::optional(worn.position.rms) : std::nullopt;
+}
+
 }  // namespace
 
-AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& scene, const Drape& target_drape,
+AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& scene, const DerivedPattern& target,
                                 const AlterPatternOptions& alter_options, const DrapeOptions& drape_options,
                                 const AlterInLoopOptions& options, Progress* progress, bool at_once) {
   DrapeSeries on_target(scene.body);
+  const auto allowed_at = [&](double ideal) {
+    return options.share_of_ideal * ideal +
+           options.farther_off * std::max(1.0, alter_options.stretch_limit / kUsualStretch);
+  };
   const double edge_length = check_edge_length(scene.original, options.check_triangles);
   AlterInLoopResult result;
   PlacedPlans& place = result.place;
-  place.ideal = compare_positions(scene.start.nodes, target_drape.nodes).rms;
-  place.allowed = options.share_of_ideal * place.ideal +
-                  options.farther_off * std::max(1.0, alter_options.stretch_limit / kUsualStretch);
+  place.ideal = compare_positions(scene.start.nodes, target.drape.drape.nodes).rms;
+  place.allowed = allowed_at(place.ideal);
   AlterPatternOptions planned = alter_options;
   while (static_cast<int>(place.plans.size()) < options.max_plans) {
     AlterPatternResult altered = alter_pattern(pattern, scene.original, scene.target.rest, planned, progress, at_once);
@@ -45,6 +55,11 @@ AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& s
                          worn.problem,
                          worn.mesh.triangle_count(),
                          worn.position.rms};
+    if (place.plans.empty() && !place.in_place(plan)) {
+      place.meshed_anew =
+          position_meshed_anew(scene, target.drawn.pattern, edge_length, on_target, drape_options, progress);
+      place.allowed = std::max(place.allowed, allowed_at(place.meshed_anew.value_or(0.0)));
+    }
     planned.planned_share = kStricter * std::min(altered.planned_share, altered.strain_left);
     place.plans.push_back(plan);
     if (place.plans.size() == 1 || rank(place, plan) < rank(place, place.kept_plan())) {

@@ -4,20 +4,23 @@
 //
 // Strain below mu may still hang a trouser leg askew, which no flat measure foretells; nor does less strain always
 // bring cloth nearer to its place, so that every plan is tried on. Place: where the body map carries the reference
-// drape to; a garment lies in it that rests little farther off than the target pattern itself. Of the plans the one
-// with the fewest faults is kept, of those the one with the fewest operations, of those the nearest. Source:
-// [Eggler2024, Sec. 8]; the order of the plans was measured.  SI units.
+// drape to; a garment lies in it that rests little farther off than the target pattern itself. Loose cloth rests
+// elsewhere on other triangles, and the altered garment has others: where it is farther off than the target pattern on
+// the mesh it was derived on, that is tried on, too, meshed as the altered one. Of the plans the one with the fewest
+// faults is kept, of those the one with the fewest operations, of those the nearest. Source: [Eggler2024, Sec. 8]; the
+// order of the plans was measured.  SI units.
 #pragma once
 
 #include "engine/alter/alter_pattern.h"
+#include "engine/derive_in_loop.h"
 #include "engine/drape_altered.h"
 
 namespace toile {
 
 struct AlterInLoopOptions {
   int max_plans = 3;  // alterations, each with its drape, 1..5
-  // A garment lies in its place where its rms distance from it is at most this many times that of the target pattern,
-  // and so many metres where mu is 3 %; where it is more, so are they: who lets cloth keep more lets it rest farther
+  // A garment lies in its place where its rms distance from it is at most this many times that of the target pattern
+  // and so many metres, where mu is 3 %; where it is more, so are they: who lets cloth keep more lets it rest farther
   // off.
   double share_of_ideal = 1.25;
   double farther_off = 2e-3;
@@ -37,10 +40,11 @@ struct TriedPlan {
 };
 
 struct PlacedPlans {
-  double ideal = 0.0,
-         allowed = 0.0;          // m: rms distance of the target pattern's drape from its place; of the altered one's
-  std::vector<TriedPlan> plans;  // in order
-  int kept = 0;                  // which of them
+  double ideal = 0.0;                 // m, rms distance of the target pattern's drape from its place
+  std::optional<double> meshed_anew;  // that of the target pattern meshed as the plans are; none: not looked at
+  double allowed = 0.0;               // m, of an altered garment
+  std::vector<TriedPlan> plans;       // in order
+  int kept = 0;                       // which of them
 
   const TriedPlan& kept_plan() const { return plans[static_cast<std::size_t>(kept)]; }
   bool in_place(const TriedPlan& plan) const { return plan.problem.empty() && plan.position <= allowed; }
@@ -51,9 +55,9 @@ struct AlterInLoopResult {
   PlacedPlans place;
 };
 
-// `scene`: its start is the place. `target_drape`: of the target pattern on the scene's body. Throws what alter_pattern
-// and drape_from do. `at_once`: see alter_pattern.
-AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& scene, const Drape& target_drape,
+// `scene`: its start is the place. `target`: the pattern of the scene's target mesh, draped on its body. Throws what
+// alter_pattern and drape_from do. `at_once`: see alter_pattern.
+AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& scene, const DerivedPattern& target,
                                 const AlterPatternOptions& alter_options, const DrapeOptions& drape_options,
                                 const AlterInLoopOptions& options = {}, Progress* progress = nullptr,
                                 bool at_once = false);

@@ -228,8 +228,8 @@ void archive(A& a, TriedPlan& v) {
 }
 template <class A>
 void archive(A& a, PlacedPlans& v) {
-  auto& [ideal, allowed, plans, kept] = v;
-  a(ideal, allowed, plans, kept);
+  auto& [ideal, meshed_anew, allowed, plans, kept] = v;
+  a(ideal, meshed_anew, allowed, plans, kept);
 }
 template <class A>
 void archive(A& a, AlterInLoopResult& v) {

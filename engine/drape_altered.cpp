@@ -95,6 +95,23 @@ class ClothPlaces {
 
 }  // namespace
 
+SewnPattern uncut(const Pattern& pattern, const PatternMesh& mesh) {
+  SewnPattern sewn;
+  sewn.pattern = pattern;
+  for (std::size_t p = 0; p < mesh.panels.size(); ++p) {
+    const PanelRange& range = mesh.panels[p];
+    SewnPiece piece;
+    piece.panel = static_cast<int>(p);
+    piece.map.rest = mesh.rest.middleRows(range.vertex_begin, range.vertex_end - range.vertex_begin);
+    piece.map.target = piece.map.rest;
+    piece.map.triangles =
+        mesh.triangles.middleRows(range.triangle_begin, range.triangle_end - range.triangle_begin).array() -
+        range.vertex_begin;
+    sewn.pieces.push_back(std::move(piece));
+  }
+  return sewn;
+}
+
 DrapedAlteration drape_altered(const AlterationScene& scene, const SewnPattern& sewn, double edge_length,
                                DrapeSeries& on_target, const DrapeOptions& options, Progress* progress) {
   DrapedAlteration result;

@@ -30,6 +30,9 @@ struct AlterationScene {
   const Body& body;
 };
 
+// A pattern as if it were an alteration that cuts nothing: every panel one piece. `mesh`: of that pattern.
+SewnPattern uncut(const Pattern& pattern, const PatternMesh& mesh);
+
 // `edge_length`: of the mesh, m. `on_target`: on the scene's body.
 DrapedAlteration drape_altered(const AlterationScene& scene, const SewnPattern& sewn, double edge_length,
                                DrapeSeries& on_target, const DrapeOptions& options, Progress* progress = nullptr);

@@ -133,9 +133,9 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
   const auto scene_from = [&](const Drape& start) {
     return AlterationScene{mesh, fit, derived.mesh, start, ideal.value.target_body};
   };
-  auto altered = runner.run("alter_pattern", 31, key_of(ideal.key, alter_options, drape_options, plan_options), [&] {
-    return alter_in_loop(pattern, scene_from(ideal.value.transported.drape), derived.drape.drape, alter_options,
-                         drape_options, plan_options, runner.progress(), runner.at_once());
+  auto altered = runner.run("alter_pattern", 32, key_of(ideal.key, alter_options, drape_options, plan_options), [&] {
+    return alter_in_loop(pattern, scene_from(ideal.value.transported.drape), derived, alter_options, drape_options,
+                         plan_options, runner.progress(), runner.at_once());
   });
   auto& [alteration, place] = altered.value;
   if (!wants_after(options)) {

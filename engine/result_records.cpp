@@ -172,8 +172,9 @@ Record place_record(const PlacedPlans& place) {
   Record record;
   record.add("in_place", place.in_place(place.kept_plan()));
   if (place.kept_plan().problem.empty()) record.add("position_mm", place.kept_plan().position * kMmPerMetre);
-  return record.add("ideal_mm", place.ideal * kMmPerMetre)
-      .add("allowed_mm", place.allowed * kMmPerMetre)
+  record.add("ideal_mm", place.ideal * kMmPerMetre);
+  if (place.meshed_anew) record.add("ideal_meshed_anew_mm", *place.meshed_anew * kMmPerMetre);
+  return record.add("allowed_mm", place.allowed * kMmPerMetre)
       .add("kept_plan", place.kept)
       .add("plans", std::move(plans));
 }

@@ -16,7 +16,7 @@ struct RecutOptions {
   double least_strip = 0.0;       // m: where a side is let go by more than ...
   std::vector<double> side_room;  // ... its turned-in cloth gives (m, per side), the cloth is cut back until a circle
                                   // of this width lies in every strip that is let in there; empty: never
-  Loops wedges;  // darts and slits of the wanted panel, which part what is open across their mouths
+  Loops wedges;                   // darts and slits of the wanted panel, which part what is open across their mouths
 };
 
 struct RecutPanel {

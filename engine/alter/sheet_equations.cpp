@@ -13,6 +13,9 @@ namespace {
 
 constexpr double kAttachment = 1e3;  // weight of sliding sides, relative to the membrane
 constexpr double kProximal = 1e-6;   // of the diagonal: holds cloth that nothing else holds
+constexpr double kLoose = 0.01;      // least stiffness of attachments, of an attached vertex, below which cloth slides
+// Times the hold for cloth that slides: else it comes to lie aside, where it is bent least.
+constexpr double kFirmer = 10.0;
 // How stiff long cloth is to shear within the limit, relative to stretch: free shear would let a trouser leg lean as
 // far as the limit allows, a hand's breadth at the hem, where letting a side go upright costs hardly any stretch. Short
 // cloth leans little, and what is sewn on fewer than two sides leans without taking other panels along: there free
@@ -86,18 +89,35 @@ void SheetEquations::finish(Sheet& sheet) const {
     sheet.vertices[static_cast<std::size_t>(v)].now = now_.row(v).transpose();
 }
 
+// Whether the attachments let all of the cloth slide along them, straight or round a bend: the least of their stiffness
+// against shifts and turns of the whole.
+bool SheetEquations::slides() const {
+  if (pulls_.empty()) return true;
+  const Vec2 middle = now_.colwise().mean();
+  const double radius =
+      std::sqrt((now_.rowwise() - middle.transpose()).squaredNorm() / static_cast<double>(now_.rows()));
+  Mat3 stiffness = Mat3::Zero();
+  for (const Pull& pull : pulls_) {
+    const Vec2 arm = (now_.row(pull.vertex).transpose() - middle) / radius;
+    const Vec3 way(pull.normal.x(), pull.normal.y(), arm.x() * pull.normal.y() - arm.y() * pull.normal.x());
+    stiffness += way * way.transpose();
+  }
+  const double least = Eigen::SelfAdjointEigenSolver<Mat3>(stiffness, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return least < kLoose * static_cast<double>(pulls_.size());
+}
+
 void SheetEquations::renew(const Sheet& sheet) {
   pulls_.clear();
-  for (int v = 0; v < sheet.vertex_count(); ++v) {
-    Mat2& tie = ties_[static_cast<std::size_t>(v)];
-    tie = (proximal_ + hold_[static_cast<std::size_t>(v)]) * Mat2::Identity();
+  for (int v = 0; v < sheet.vertex_count(); ++v)
     for (const SheetAnchor& anchor : sheet.vertices[static_cast<std::size_t>(v)].anchors) {
       if (anchor.side < 0 || !anchor.attached) continue;
       const SideFoot foot = sheet.wanted_sides[static_cast<std::size_t>(anchor.side)].closest(now_.row(v).transpose());
       pulls_.push_back({v, foot.normal, foot.normal.dot(foot.point)});
-      tie += kAttachment * foot.normal * foot.normal.transpose();
     }
-  }
+  firmness_ = slides() ? kFirmer : 1.0;
+  for (std::size_t v = 0; v < ties_.size(); ++v) ties_[v] = (proximal_ + firmness_ * hold_[v]) * Mat2::Identity();
+  for (const Pull& pull : pulls_)
+    ties_[static_cast<std::size_t>(pull.vertex)] += kAttachment * pull.normal * pull.normal.transpose();
   if (!solver_.factor(ties_))
     throw Error(ErrorCode::AlterationFailed, "panel:#" + std::to_string(sheet.panel),
                 "the stretched cloth has no stable position; mesh the panel again or look for empty triangles");
@@ -111,7 +131,7 @@ Mat2 SheetEquations::gradient(const Face& face) const {
 }
 
 double SheetEquations::sweep() {
-  right_ = held_ + proximal_ * now_;
+  right_ = firmness_ * held_ + proximal_ * now_;
   double energy = 0.0;
   for (const Face& face : faces_) {
     const Mat2 now = gradient(face), wanted = fibre_projection(now, face.length, shear_kept_);

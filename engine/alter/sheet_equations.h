@@ -39,6 +39,7 @@ class SheetEquations {
   };
 
   Mat2 gradient(const Face& face) const;
+  bool slides() const;
   PlaneSolver solver_of(const Sheet& sheet);
 
   std::vector<Face> faces_;
@@ -46,6 +47,7 @@ class SheetEquations {
   double shear_kept_ = 1.0;
   std::vector<double> hold_;  // per vertex
   Points2 held_;              // what hold and the plain map add to the right-hand side
+  double firmness_ = 1.0;     // times the hold: more for cloth that slides
   PlaneSolver solver_;
   std::vector<Mat2> ties_;  // per vertex: what the attachments add to the diagonal
   std::vector<Pull> pulls_;

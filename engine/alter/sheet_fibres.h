@@ -10,8 +10,8 @@ namespace toile {
 // as the plain map has it and never grows; what is folded takes any width.
 Vec2 wanted_lengths(const Mat2& guide, bool folded);
 
-// Nearest gradient whose fibres have the lengths `length` and stand within the shear limit (90 +- 5 degrees), there with
-// the share `shear_kept` of the shear they have: below 1 the cloth resists shear.
+// Nearest gradient whose fibres have the lengths `length` and stand within the shear limit (90 +- 5 degrees), there
+// with the share `shear_kept` of the shear they have: below 1 the cloth resists shear.
 Mat2 fibre_projection(const Mat2& gradient, const Vec2& length, double shear_kept = 1.0);
 
 }  // namespace toile

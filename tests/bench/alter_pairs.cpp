@@ -90,14 +90,16 @@ AlterFit fit_of(const DerivedGarment& derived, const AlterPatternResult& result,
   fit.stretch_before = compare_fits(mesh, derived.reference.fit, derived.fit_before).whole.rms_stretch;
   fit.stretch_ideal = compare_fits(mesh, derived.reference.fit, derived.derived.fit).whole.rms_stretch;
   fit.position_ideal = compare_positions(derived.transported.drape.nodes, derived.derived.drape.drape.nodes).rms;
-  const auto drape_at = [&](const Drape& start) {
-    return drape_altered(scene_of(derived, start), result.sewn, drape_options_of(options));
+  const auto drape_at = [&](const SewnPattern& sewn, const Drape& start) {
+    return drape_altered(scene_of(derived, start), sewn, drape_options_of(options));
   };
-  const DrapedAlteration after = drape_at(derived.derived.drape.drape);
+  const DrapedAlteration after = drape_at(result.sewn, derived.derived.drape.drape);
   fit.problem = after.problem;
   if (!fit.problem.empty()) return fit;
   fit.stretch_after = compare_fits(after.mesh, after.reference, after.fit).whole.rms_stretch;
-  fit.position_after = drape_at(derived.transported.drape).position.rms;
+  fit.position_after = drape_at(result.sewn, derived.transported.drape).position.rms;
+  const SewnPattern target = uncut(derived.derived.drawn.pattern, derived.derived.mesh);
+  fit.position_anew = drape_at(target, derived.transported.drape).position.rms;
   return fit;
 }
 
@@ -106,8 +108,8 @@ AlterationScene scene_of(const DerivedGarment& derived, const Drape& start) {
 }
 
 AlterInLoopResult alter_derived(const DerivedGarment& derived, const AlterOptions& job) {
-  return alter_in_loop(derived.reference.pattern, scene_of(derived, derived.transported.drape),
-                       derived.derived.drape.drape, alter_options_of(job), drape_options_of(job), plan_options_of(job));
+  return alter_in_loop(derived.reference.pattern, scene_of(derived, derived.transported.drape), derived.derived,
+                       alter_options_of(job), drape_options_of(job), plan_options_of(job));
 }
 
 Image picture_of(const AlterPair& pair, const AlterPatternResult& result, int width) {

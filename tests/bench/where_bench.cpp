@@ -122,26 +122,8 @@ void print_lengths(const Where& where) {
   table.print();
 }
 
-// The target pattern as if it were an alteration, every panel one piece.
-SewnPattern as_it_is(const DerivedPattern& derived) {
-  SewnPattern sewn;
-  sewn.pattern = derived.drawn.pattern;
-  for (std::size_t p = 0; p < derived.mesh.panels.size(); ++p) {
-    const PanelRange& range = derived.mesh.panels[p];
-    SewnPiece piece;
-    piece.panel = static_cast<int>(p);
-    piece.map.rest = derived.mesh.rest.middleRows(range.vertex_begin, range.vertex_end - range.vertex_begin);
-    piece.map.target = piece.map.rest;
-    piece.map.triangles =
-        derived.mesh.triangles.middleRows(range.triangle_begin, range.triangle_end - range.triangle_begin).array() -
-        range.vertex_begin;
-    sewn.pieces.push_back(std::move(piece));
-  }
-  return sewn;
-}
-
 void print_target_itself(const DerivedGarment& derived, const DrapeOptions& options) {
-  const SewnPattern sewn = as_it_is(derived.derived);
+  const SewnPattern sewn = uncut(derived.derived.drawn.pattern, derived.derived.mesh);
   DrapeSeries on_target(derived.target_body);
   std::printf("the target pattern itself: %.1f mm off; meshed anew:",
               kMmPerMetre * compare_positions(derived.transported.drape.nodes, derived.derived.drape.drape.nodes).rms);

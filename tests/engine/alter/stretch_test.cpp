@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/alter/stretch.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "engine/alter/lay_sheet.h"
+#include "engine/alter/propagate_tear.h"
 #include "tests/support/grid_garment.h"
 
 namespace toile {
@@ -53,6 +56,35 @@ TEST(Stretch, ClothThatIsLetGoLosesItsStress) {
   for (int side = 0; side < static_cast<int>(sheet.sides.size()); ++side) let_go(sheet, side);
   relax(sheet, {.max_renewals = 60, .energy_drop = 1e-8});
   EXPECT_LT(measure_stress(sheet).p95, 0.1 * held.p95);
+}
+
+// A waistband is stretched onto one that is 3 % longer, less bent, and alike to both sides.
+TEST(Stretch, ABandLetGoAtBothEndsStaysInTheMiddle) {
+  constexpr double kWidth = 0.43, kHeight = 0.045, kShorter = 0.97;  // m
+  const test::GridGarment garment = test::grid_garment({{"band", kWidth, kHeight, 32, 3, 0.0}});
+  const auto bent = [](double bend, double growing) {
+    return [=](int, const Vec2& p) {
+      const double x = p.x() - kWidth / 2;
+      return Vec2(p.x(), p.y() + bend * x * x * (1.0 + growing * x));
+    };
+  };
+  Points2 wanted = garment.mapped(bent(0.45, 1.0));
+  wanted.col(0) *= kShorter;
+  Sheet sheet = make_sheet(garment.pattern, garment.mesh, wanted, garment.mapped(bent(0.25, 0.0)), 0);
+  relax(sheet);
+  ASSERT_GT(measure_stress(sheet).p95, 0.02);
+  for (const int side : {1, 3}) let_go(sheet, side);
+  relax(sheet, {.max_renewals = 200, .energy_drop = 1e-9});
+  const auto gap_at = [&](int side) {
+    double sum = 0.0;
+    int count = 0;
+    for (int v = 0; v < sheet.vertex_count(); ++v)
+      if (sheet.vertices[static_cast<std::size_t>(v)].anchor(side)) sum += gap_to_side(sheet, v, side), ++count;
+    return sum / count;
+  };
+  const double right = gap_at(1), left = gap_at(3);
+  EXPECT_NEAR(right + left, (1.0 - kShorter) * kWidth, 3e-3);
+  EXPECT_LT(std::abs(right - left), 0.3 * (right + left));
 }
 
 TEST(LaySheet, AFineSheetBeginsNearWhereItEnds) {
