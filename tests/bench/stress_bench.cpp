@@ -38,7 +38,7 @@ using stress::Outcome;
 constexpr rlim_t kMemory = rlim_t{3} << 30;  // bytes: a scene that wants more than 3 GB is out of hand
 
 struct Request {
-  int scenes = 200, limit = 240;  // CPU s: a scene runs its job up to four times
+  int scenes = 200, limit = 60;  // CPU s: a scene runs its job up to four times
   std::uint64_t seed = 1;
   std::string kind;
   bool all = false;
