@@ -109,7 +109,7 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
             .value;
       },
       [&](StageRunner& part) {
-        return part.run("derive_pattern", 26, key_of(transported.key, derive_options, loop_options, plane), [&] {
+        return part.run("derive_pattern", 27, key_of(transported.key, derive_options, loop_options, plane), [&] {
           const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
           return derive_in_loop(pattern, mesh, fit, target, transported.value.drape, mirrors, derive_options,
                                 drape_options, loop_options, part.progress());

@@ -56,6 +56,8 @@ class EdgeFitter {
       match_seam_lengths(result_.pattern, seam_ratios(), rules_);
       mirror_drawing(mesh_, mirrors_, target_, result_.pattern);  // equal again, to the last bit
     }
+    for (std::size_t p = 0; p < original_.panels.size(); ++p)
+      keep_in_place(original_.panels[p], result_.pattern.panels[p]);
     measure();
     return std::move(result_);
   }
@@ -90,6 +92,14 @@ class EdgeFitter {
           fit_edge(p, e, motion, directions[static_cast<std::size_t>(e)]).shape;
     if (options_.smooth_corners) smooth_corners(p, std::move(directions));
     move_marks(before, motion, p, after);
+  }
+
+  // A panel that grew from its first corner on would be placed aside of the body, and be no one's mirror image there.
+  static void keep_in_place(const Panel& before, Panel& after) {
+    Vec2 way = Vec2::Zero();
+    for (std::size_t c = 0; c < before.corners.size(); ++c) way += after.corners[c] - before.corners[c];
+    way /= static_cast<double>(before.corners.size());
+    after.translation -= after.rotation.leftCols<2>() * way;
   }
 
   const SideRule& rule(int p, int e) const { return rules_[static_cast<std::size_t>(p)][static_cast<std::size_t>(e)]; }

@@ -9,6 +9,7 @@
 #include "engine/stages/import_pattern.h"
 #include "engine/stages/mesh_panels.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/tubes.h"
 
 namespace toile {
 namespace {
@@ -73,6 +74,25 @@ TEST(FitPatternEdges, SmoothDeformationsComeBackAsTheOriginalKindsOfEdges) {
   EXPECT_LE(polylines, 4) << "only the quarter-circle hems of wide skirts";
 }
 
+TEST(FitPatternEdges, PanelsStayWhereTheyArePlaced) {
+  constexpr double kLarger = 1.2;
+  const Pattern pattern = test::tube_skirt_pattern(0.9, 0.5, 0.6, 0.25);
+  const PatternMesh mesh = mesh_panels(pattern);
+  const Pattern grown =
+      fit_pattern_edges(pattern, mesh, moved(mesh, [=](const Vec2& p) { return Vec2(kLarger * p); })).pattern;
+  const auto middle = [](const Panel& panel) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec2& corner : panel.corners) sum += panel.rotation.leftCols<2>() * corner + panel.translation;
+    return Vec3(sum / static_cast<double>(panel.corners.size()));
+  };
+  for (std::size_t p = 0; p < pattern.panels.size(); ++p) {
+    const Panel &before = pattern.panels[p], &after = grown.panels[p];
+    EXPECT_NEAR(edge_length(after, 0), kLarger * edge_length(before, 0), 1e-6);
+    EXPECT_GT((after.corners[2] - before.corners[2]).norm(), 0.05);
+    EXPECT_LT((middle(after) - middle(before)).norm(), 1e-9);
+  }
+}
+
 TEST(FitPatternEdges, SewnSidesKeepTheirLengthRatio) {
   TOILE_REQUIRE_SHARED_DATA();
   // The left half grows more than the right: sides of seams would differ by millimetres.
@@ -86,7 +106,8 @@ TEST(FitPatternEdges, SewnSidesKeepTheirLengthRatio) {
     FitPatternEdgesOptions loose;
     loose.keep_seam_ratios = false;
     const Points2 target = moved(mesh, motion);
-    EXPECT_GT(fit_pattern_edges(pattern, mesh, target, {}, loose).largest_seam_mismatch, 2e-4) << "the case must be one";
+    EXPECT_GT(fit_pattern_edges(pattern, mesh, target, {}, loose).largest_seam_mismatch, 2e-4)
+        << "the case must be one";
     const FitPatternEdgesResult result = fit_pattern_edges(pattern, mesh, target);
     EXPECT_LT(result.largest_seam_mismatch, 1e-5);
     validate_pattern(result.pattern);
