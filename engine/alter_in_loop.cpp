@@ -25,17 +25,16 @@ std::tuple<int, int, double> rank(const PlacedPlans& place, const TriedPlan& pla
 
 std::optional<double> position_meshed_anew(const AlterationScene& scene, const Pattern& target, double edge_length,
                                            DrapeSeries& on_target, const DrapeOptions& options, Progress* progress) {
-  const DrapedAlteration worn =
-      drape_altered(scene, uncut(target, scene.target), edge_length, on_target, options, progress);
+  const TriedOn worn = try_on(scene, uncut(target, scene.target), edge_length, on_target, options, progress);
   return worn.problem.empty() ? std::optional(worn.position.rms) : std::nullopt;
 }
 
 }  // namespace
 
 AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& scene, const DerivedPattern& target,
-                                const AlterPatternOptions& alter_options, const DrapeOptions& drape_options,
-                                const AlterInLoopOptions& options, Progress* progress, bool at_once) {
-  DrapeSeries on_target(scene.body);
+                                DrapeSeries& on_target, const AlterPatternOptions& alter_options,
+                                const DrapeOptions& drape_options, const AlterInLoopOptions& options,
+                                Progress* progress, bool at_once) {
   const auto allowed_at = [&](double ideal) {
     return options.share_of_ideal * ideal +
            options.farther_off * std::max(1.0, alter_options.stretch_limit / kUsualStretch);
@@ -48,7 +47,7 @@ AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& s
   AlterPatternOptions planned = alter_options;
   while (static_cast<int>(place.plans.size()) < options.max_plans) {
     AlterPatternResult altered = alter_pattern(pattern, scene.original, scene.target.rest, planned, progress, at_once);
-    const DrapedAlteration worn = drape_altered(scene, altered.sewn, edge_length, on_target, drape_options, progress);
+    TriedOn worn = try_on(scene, altered.sewn, edge_length, on_target, drape_options, progress);
     const TriedPlan plan{altered.planned_share,
                          static_cast<int>(altered.ticket.operations.size()),
                          static_cast<int>(faults_of(altered)),
@@ -65,6 +64,7 @@ AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& s
     if (place.plans.size() == 1 || rank(place, plan) < rank(place, place.kept_plan())) {
       place.kept = static_cast<int>(place.plans.size()) - 1;
       result.altered = std::move(altered);
+      result.worn = edge_length == scene.original.target_edge_length ? std::move(worn) : TriedOn{};
     }
     if (place.in_place(plan) || planned.planned_share < kStrictest) break;
   }

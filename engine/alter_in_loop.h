@@ -52,14 +52,16 @@ struct PlacedPlans {
 
 struct AlterInLoopResult {
   AlterPatternResult altered;  // by the plan that is kept
+  TriedOn worn;                // how it was tried on with a mesh as fine as the original's; or empty
   PlacedPlans place;
 };
 
-// `scene`: its start is the place. `target`: the pattern of the scene's target mesh, draped on its body. Throws what
+// `scene`: its start is the place. `target`: the pattern of the scene's target mesh, draped. `on_target`: on the target
+// body. Throws what
 // alter_pattern and drape_from do. `at_once`: see alter_pattern.
 AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& scene, const DerivedPattern& target,
-                                const AlterPatternOptions& alter_options, const DrapeOptions& drape_options,
-                                const AlterInLoopOptions& options = {}, Progress* progress = nullptr,
-                                bool at_once = false);
+                                DrapeSeries& on_target, const AlterPatternOptions& alter_options,
+                                const DrapeOptions& drape_options, const AlterInLoopOptions& options = {},
+                                Progress* progress = nullptr, bool at_once = false);
 
 }  // namespace toile

@@ -96,6 +96,11 @@ void archive(A& a, PositionDifference& v) {
   a(rms, p95, largest, worst_node);
 }
 template <class A>
+void archive(A& a, TriedOn& v) {
+  auto& [problem, mesh, drape, position] = v;
+  a(problem, mesh, drape, position);
+}
+template <class A>
 void archive(A& a, DrapedAlteration& v) {
   auto& [problem, mesh, drape, fit, reference, position] = v;
   a(problem, mesh, drape, fit, reference, position);
@@ -233,8 +238,8 @@ void archive(A& a, PlacedPlans& v) {
 }
 template <class A>
 void archive(A& a, AlterInLoopResult& v) {
-  auto& [altered, place] = v;
-  a(altered, place);
+  auto& [altered, worn, place] = v;
+  a(altered, worn, place);
 }
 
 }  // namespace toile

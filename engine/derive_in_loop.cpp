@@ -2,7 +2,6 @@
 #include "engine/derive_in_loop.h"
 
 #include "engine/stages/build_fitting_map.h"
-#include "engine/stages/drape_series.h"
 
 namespace toile {
 namespace {
@@ -44,11 +43,10 @@ bool at_rest(const DerivedPattern& pass) {
 }  // namespace
 
 DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& reference_mesh,
-                              const FittingMap& reference_fit, const Body& target_body, const Drape& transported,
+                              const FittingMap& reference_fit, DrapeSeries& on_target, const Drape& transported,
                               const GarmentMirrors& mirrors, const DerivePatternOptions& derive_options,
                               const DrapeOptions& drape_options, const DeriveInLoopOptions& options,
                               Progress* progress) {
-  DrapeSeries on_target(target_body);
   const Scene scene{pattern, reference_mesh, reference_fit, on_target, mirrors};
   DerivedPattern best = derive_and_drape(scene, transported, nullptr, derive_options, drape_options, progress);
   std::vector<double> errors = {best.rms_stretch_error};

@@ -11,7 +11,7 @@
 
 #include "engine/draw_target.h"
 #include "engine/stages/compare_fits.h"
-#include "engine/stages/drape.h"
+#include "engine/stages/drape_series.h"
 
 namespace toile {
 
@@ -38,9 +38,10 @@ struct DerivedPattern {
   std::vector<int> held_back;       // panels that would have overlapped themselves otherwise
 };
 
-// Requires and throws what derive_pattern and drape_from do. `mirrors`: empty for a pattern that need not be symmetric.
+// Requires and throws what derive_pattern and drape_from do. `on_target`: on the target body. `mirrors`: empty for a
+// pattern that need not be symmetric.
 DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& reference_mesh,
-                              const FittingMap& reference_fit, const Body& target_body, const Drape& transported,
+                              const FittingMap& reference_fit, DrapeSeries& on_target, const Drape& transported,
                               const GarmentMirrors& mirrors, const DerivePatternOptions& derive_options,
                               const DrapeOptions& drape_options, const DeriveInLoopOptions& options = {},
                               Progress* progress = nullptr);

@@ -112,40 +112,45 @@ SewnPattern uncut(const Pattern& pattern, const PatternMesh& mesh) {
   return sewn;
 }
 
-DrapedAlteration drape_altered(const AlterationScene& scene, const SewnPattern& sewn, double edge_length,
-                               DrapeSeries& on_target, const DrapeOptions& options, Progress* progress) {
-  DrapedAlteration result;
+TriedOn try_on(const AlterationScene& scene, const SewnPattern& sewn, double edge_length, DrapeSeries& on_target,
+               const DrapeOptions& options, Progress* progress) {
+  TriedOn worn;
   if (sewn.pieces.empty()) {
-    result.problem = sewn.flags.empty() ? "there is no sewn pattern" : sewn.flags.front();
-    return result;
+    worn.problem = sewn.flags.empty() ? "there is no sewn pattern" : sewn.flags.front();
+    return worn;
   }
-  Drape start;
-  const ClothPlaces places(scene, sewn);
   try {  // an alteration that cannot be sewn or worn is a finding, not a failure of the job
     validate_pattern(sewn.pattern);
     MeshPanelsOptions mesh_options;
     mesh_options.edge_length = edge_length;
-    result.mesh = mesh_panels(sewn.pattern, mesh_options, progress);
-    start = places.start(result.mesh);
-    result.drape = on_target.drape_from(sewn.pattern, result.mesh, start, options, progress);
+    worn.mesh = mesh_panels(sewn.pattern, mesh_options, progress);
+    const Drape start = ClothPlaces(scene, sewn).start(worn.mesh);
+    worn.drape = on_target.drape_from(sewn.pattern, worn.mesh, start, options, progress);
+    worn.position = compare_positions(start.nodes, worn.drape.drape.nodes);
   } catch (const Error& error) {
     if (error.code != ErrorCode::GarmentInvalid && error.code != ErrorCode::SeamInvalid &&
         error.code != ErrorCode::LimitExceeded && error.code != ErrorCode::DrapeFailed)
       throw;
-    result.problem = error.what();
-    result.mesh = {};
-    return result;
+    worn = {};
+    worn.problem = error.what();
   }
-  result.fit = build_fitting_map(result.mesh, result.drape.drape);
-  result.reference = places.wanted(result.mesh, result.fit);
-  result.position = compare_positions(start.nodes, result.drape.drape.nodes);
-  return result;
+  return worn;
 }
 
-DrapedAlteration drape_altered(const AlterationScene& scene, const SewnPattern& sewn, const DrapeOptions& options,
-                               Progress* progress) {
-  DrapeSeries on_target(scene.body);
-  return drape_altered(scene, sewn, scene.original.target_edge_length, on_target, options, progress);
+DrapedAlteration drape_altered(const AlterationScene& scene, const SewnPattern& sewn, TriedOn worn,
+                               DrapeSeries& on_target, const DrapeOptions& options, Progress* progress) {
+  if (worn.mesh.triangle_count() == 0)
+    worn = try_on(scene, sewn, scene.original.target_edge_length, on_target, options, progress);
+  DrapedAlteration result;
+  result.problem = std::move(worn.problem);
+  if (!result.problem.empty()) return result;
+  result.mesh = std::move(worn.mesh);
+  result.drape = std::move(worn.drape);
+  result.fit = build_fitting_map(result.mesh, result.drape.drape);
+  const ClothPlaces places(scene, sewn);
+  result.reference = places.wanted(result.mesh, result.fit);
+  result.position = compare_positions(places.start(result.mesh).nodes, result.drape.drape.nodes);
+  return result;
 }
 
 }  // namespace toile

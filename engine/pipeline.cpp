@@ -45,26 +45,14 @@ bool wants_any(const AlterOptions& options, std::initializer_list<std::string_vi
   });
 }
 
-}  // namespace
+// A derived garment, and the target body as it was prepared for draping.
+struct DerivedOnBody {
+  Keyed<DerivedGarment> garment;
+  std::unique_ptr<DrapeSeries> on_target;
+};
 
-Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput& body, const AlterOptions& options,
-                                   StageRunner& runner) {
-  const auto pattern = take_in(garment, runner);
-  return drape_on(garment, pattern, take_in(body, runner), options, runner);
-}
-
-bool wants_after(const AlterOptions& options) {
-  return wants_any(options, {"all", "target_after.obj", "fit_after.png", "report.html"});
-}
-
-// Pictures share a frame in which this drape has its place, too.
-bool wants_before(const AlterOptions& options) {
-  return wants_any(options, {"all", "result.json", "target_before.obj", "fit_reference.png", "fit_before.png",
-                             "fit_target.png", "fit_after.png", "transport.png", "report.html"});
-}
-
-Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInput& reference_body,
-                                     const BodyInput& target_body, const AlterOptions& options, StageRunner& runner) {
+DerivedOnBody derive_on_body(const GarmentInput& garment, const BodyInput& reference_body, const BodyInput& target_body,
+                             const AlterOptions& options, StageRunner& runner) {
   const DrapeOptions drape_options = drape_options_of(options);
   const DerivePatternOptions derive_options = derive_options_of(options);
   const DeriveInLoopOptions loop_options = loop_options_of(options);
@@ -97,6 +85,7 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
   const auto transported = runner.run("transport_garment", 6, key_of(reference.key, found.key), [&] {
     return transport_garment(mesh, worn.drape, wearer, target, registered.map, {}, runner.progress());
   });
+  auto on_target = std::make_unique<DrapeSeries>(target);
   const auto plane = mirror_plane_of(options, pattern);
   auto [before, derived] = runner.run_both(
       [&](StageRunner& part) -> std::optional<DrapeResult> {
@@ -104,22 +93,48 @@ Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInpu
         return part
             .run("drape_before", 21, key_of(transported.key, drape_options),
                  [&] {
-                   return drape_from(pattern, mesh, target, transported.value.drape, drape_options, part.progress());
+                   DrapeSeries beside(target);
+                   return (part.at_once() ? beside : *on_target)
+                       .drape_from(pattern, mesh, transported.value.drape, drape_options, part.progress());
                  })
             .value;
       },
       [&](StageRunner& part) {
         return part.run("derive_pattern", 27, key_of(transported.key, derive_options, loop_options, plane), [&] {
           const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
-          return derive_in_loop(pattern, mesh, fit, target, transported.value.drape, mirrors, derive_options,
+          return derive_in_loop(pattern, mesh, fit, *on_target, transported.value.drape, mirrors, derive_options,
                                 drape_options, loop_options, part.progress());
         });
       });
 
   FittingMap fit_before = before ? build_fitting_map(mesh, before->drape) : FittingMap();
-  return {{std::move(reference.value), target, registered, transported.value, std::move(before), std::move(fit_before),
-           derived.value},
-          derived.key};
+  return {{{std::move(reference.value), target, registered, transported.value, std::move(before), std::move(fit_before),
+            derived.value},
+           derived.key},
+          std::move(on_target)};
+}
+
+}  // namespace
+
+Keyed<DrapedGarment> drape_garment(const GarmentInput& garment, const BodyInput& body, const AlterOptions& options,
+                                   StageRunner& runner) {
+  const auto pattern = take_in(garment, runner);
+  return drape_on(garment, pattern, take_in(body, runner), options, runner);
+}
+
+bool wants_after(const AlterOptions& options) {
+  return wants_any(options, {"all", "target_after.obj", "fit_after.png", "report.html"});
+}
+
+// Pictures share a frame in which this drape has its place, too.
+bool wants_before(const AlterOptions& options) {
+  return wants_any(options, {"all", "result.json", "target_before.obj", "fit_reference.png", "fit_before.png",
+                             "fit_target.png", "fit_after.png", "transport.png", "report.html"});
+}
+
+Keyed<DerivedGarment> derive_garment(const GarmentInput& garment, const BodyInput& reference_body,
+                                     const BodyInput& target_body, const AlterOptions& options, StageRunner& runner) {
+  return derive_on_body(garment, reference_body, target_body, options, runner).garment;
 }
 
 AlterResult alter_garment(const GarmentInput& garment, const BodyInput& reference_body, const BodyInput& target_body,
@@ -127,23 +142,23 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
   const AlterPatternOptions alter_options = alter_options_of(options);
   const DrapeOptions drape_options = drape_options_of(options);
   const AlterInLoopOptions plan_options = plan_options_of(options);
-  auto ideal = derive_garment(garment, reference_body, target_body, options, runner);
+  DerivedOnBody on_body = derive_on_body(garment, reference_body, target_body, options, runner);
+  Keyed<DerivedGarment>& ideal = on_body.garment;
   const auto& [pattern, mesh, wearer, worn, fit] = ideal.value.reference;
   const DerivedPattern& derived = ideal.value.derived;
-  const auto scene_from = [&](const Drape& start) {
-    return AlterationScene{mesh, fit, derived.mesh, start, ideal.value.target_body};
-  };
-  auto altered = runner.run("alter_pattern", 32, key_of(ideal.key, alter_options, drape_options, plan_options), [&] {
-    return alter_in_loop(pattern, scene_from(ideal.value.transported.drape), derived, alter_options, drape_options,
-                         plan_options, runner.progress(), runner.at_once());
+  const auto scene_from = [&](const Drape& start) { return AlterationScene{mesh, fit, derived.mesh, start}; };
+  auto altered = runner.run("alter_pattern", 33, key_of(ideal.key, alter_options, drape_options, plan_options), [&] {
+    return alter_in_loop(pattern, scene_from(ideal.value.transported.drape), derived, *on_body.on_target, alter_options,
+                         drape_options, plan_options, runner.progress(), runner.at_once());
   });
-  auto& [alteration, place] = altered.value;
+  auto& [alteration, tried_on, place] = altered.value;
   if (!wants_after(options)) {
     runner.skip("drape_altered");
     return {std::move(ideal.value), std::move(alteration), std::move(place), {}};
   }
-  auto after = runner.run("drape_altered", 20, key_of(altered.key, ideal.key, drape_options), [&] {
-    return drape_altered(scene_from(derived.drape.drape), alteration.sewn, drape_options, runner.progress());
+  auto after = runner.run("drape_altered", 21, key_of(altered.key, ideal.key, drape_options), [&] {
+    return drape_altered(scene_from(derived.drape.drape), alteration.sewn, std::move(tried_on), *on_body.on_target,
+                         drape_options, runner.progress());
   });
   return {std::move(ideal.value), std::move(alteration), std::move(place), std::move(after.value)};
 }

@@ -247,9 +247,17 @@ void SurfaceTree::try_slot(const Vec3& p, std::int32_t slot, SurfacePoint& best)
   best.triangle = triangle_of_slot_[static_cast<std::size_t>(slot)];
 }
 
-// `try_leaf(leaf, count, best)` of every leaf that may hold something nearer than `best`, near ones first.
-template <class TryLeaf>
-void SurfaceTree::search(const Vec3& p, SurfacePoint& best, TryLeaf try_leaf) const {
+void SurfaceTree::try_leaf(const Vec3& p, std::int32_t leaf, SurfacePoint& best) const {
+  const Lanes distances = leaves_[static_cast<std::size_t>(leaf)].distances_squared(p);
+  Eigen::Index nearest = 0;
+  // A little slack: the last digits are for the one triangle's own formula to say.
+  if (distances.minCoeff(&nearest) < best.distance_squared * kLaneSlack)
+    try_slot(p, leaf * kLeafSize + static_cast<std::int32_t>(nearest), best);
+}
+
+// `look_at(leaf, count)` of every leaf that may hold something nearer than `best`, near ones first.
+template <class LookAt>
+void SurfaceTree::search(const Vec3& p, SurfacePoint& best, LookAt look_at) const {
   const float q[3] = {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
   struct Entry {
     float bound;
@@ -262,7 +270,7 @@ void SurfaceTree::search(const Vec3& p, SurfacePoint& best, TryLeaf try_leaf) co
     const Entry entry = stack[static_cast<std::size_t>(--top)];
     if (static_cast<double>(entry.bound) >= best.distance_squared) continue;
     if (entry.child < 0) {
-      try_leaf(~entry.child / 8, ~entry.child % 8);
+      look_at(~entry.child / 8, ~entry.child % 8);
       continue;
     }
     const Node& node = nodes_[static_cast<std::size_t>(entry.child)];
@@ -293,14 +301,18 @@ SurfacePoint SurfaceTree::closest_point(const Vec3& p, double within, int start)
   best.distance_squared = within * within;
   if (nodes_.empty()) return best;
   if (has(start)) try_slot(p, slot_of_triangle_[static_cast<std::size_t>(start)], best);
-  search(p, best, [&](std::int32_t leaf, int) {
-    const Lanes distances = leaves_[static_cast<std::size_t>(leaf)].distances_squared(p);
-    Eigen::Index nearest = 0;
-    // A little slack: the last digits are for the one triangle's own formula to say.
-    if (distances.minCoeff(&nearest) < best.distance_squared * kLaneSlack)
-      try_slot(p, leaf * kLeafSize + static_cast<std::int32_t>(nearest), best);
-  });
+  search(p, best, [&](std::int32_t leaf, int) { try_leaf(p, leaf, best); });
   return best;
+}
+
+// Two triangles of one leaf may be as near but for rounding: the search starts with the leaf, not with the triangle.
+double SurfaceTree::distance(const Vec3& p, int& start) const {
+  SurfacePoint best;
+  if (nodes_.empty()) return best.distance();
+  if (has(start)) try_leaf(p, slot_of_triangle_[static_cast<std::size_t>(start)] / kLeafSize, best);
+  search(p, best, [&](std::int32_t leaf, int) { try_leaf(p, leaf, best); });
+  start = best.triangle;
+  return best.distance();
 }
 
 SurfacePoint SurfaceTree::closest_point_facing(const Vec3& p, const Vec3& direction, double cosine, double within,

@@ -48,6 +48,9 @@ class SurfaceTree {
   SurfacePoint closest_point_facing(const Vec3& p, const Vec3& direction, double cosine,
                                     double within = std::numeric_limits<double>::infinity(), int start = -1) const;
 
+  // Distance of the closest point: the same bits whatever the search starts with. `start` becomes its triangle.
+  double distance(const Vec3& p, int& start) const;
+
   // How many times a closed surface winds round p, counted along the ray from p towards +z; 0 outside, 1 inside,
   // 2 where two parts overlap. Rays through edges and corners are counted once. Meaningless if the surface has holes.
   int winding_number(const Vec3& p) const;
@@ -73,10 +76,11 @@ class SurfaceTree {
     Vec3 a, b, c;
   };
   struct Builder;
-  template <class TryLeaf>
-  void search(const Vec3& p, SurfacePoint& best, TryLeaf try_leaf) const;
+  template <class LookAt>
+  void search(const Vec3& p, SurfacePoint& best, LookAt look_at) const;
   Corners corners(std::int32_t slot) const;
   void try_slot(const Vec3& p, std::int32_t slot, SurfacePoint& best) const;
+  void try_leaf(const Vec3& p, std::int32_t leaf, SurfacePoint& best) const;  // the nearest of its triangles
   bool has(int triangle) const { return triangle >= 0 && triangle < triangle_count(); }
 
   std::vector<Node> nodes_;

@@ -183,16 +183,16 @@ struct SurfaceField::State {
     return at[0] == c.x() && at[1] == c.y() && at[2] == c.z();
   }
 
-  // Signed distance at lattice node (x, y, z). The last answer is near the next question: it starts the search.
+  // Signed distance at lattice node (x, y, z). The last answer is near the next question: it starts the search. The
+  // value does not depend on it.
   float node_value(int x, int y, int z) {
     ++computed;
     return node_value_from(x, y, z, start);
   }
   float node_value_from(int x, int y, int z, int& from) const {
     const Vec3 p = origin + h * Vec3(x, y, z);
-    const SurfacePoint near = tree.closest_point(p, std::numeric_limits<double>::infinity(), from);
-    from = near.triangle;
-    return static_cast<float>(crossings->winding(x, y, p.z()) > 0 ? -near.distance() : near.distance());
+    const double distance = tree.distance(p, from);
+    return static_cast<float>(crossings->winding(x, y, p.z()) > 0 ? -distance : distance);
   }
 
   // Nodes round the node `centre` whose value is not known yet; they count as asked for from now on.
@@ -218,9 +218,8 @@ struct SurfaceField::State {
       const double slack = (p - node).norm() + 1e-6;
       float& distance = level.distance[level.index(c)];
       if (std::isnan(distance)) {
-        const SurfacePoint near = tree.closest_point(node, std::numeric_limits<double>::infinity(), start);
-        start = near.triangle;
-        distance = static_cast<float>(tree.winding_number(node) > 0 ? -near.distance() : near.distance());
+        const auto away = static_cast<float>(tree.distance(node, start));
+        distance = tree.winding_number(node) > 0 ? -away : away;
       }
       bound = std::max(bound, static_cast<double>(distance) - slack);
       if (bound > enough || distance + slack < enough) break;  // certainly far, or certainly near

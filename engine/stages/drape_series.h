@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drapes on one body, one after the other: what depends on the body alone is prepared once, and the distance field
-// keeps what it was asked for. The same drapes in the same order give the same bytes.
+// keeps what it was asked for. A drape has the same bytes whatever was draped before it.
 #pragma once
 
 #include <memory>

@@ -90,8 +90,9 @@ AlterFit fit_of(const DerivedGarment& derived, const AlterPatternResult& result,
   fit.stretch_before = compare_fits(mesh, derived.reference.fit, derived.fit_before).whole.rms_stretch;
   fit.stretch_ideal = compare_fits(mesh, derived.reference.fit, derived.derived.fit).whole.rms_stretch;
   fit.position_ideal = compare_positions(derived.transported.drape.nodes, derived.derived.drape.drape.nodes).rms;
+  DrapeSeries on_target(derived.target_body);
   const auto drape_at = [&](const SewnPattern& sewn, const Drape& start) {
-    return drape_altered(scene_of(derived, start), sewn, drape_options_of(options));
+    return drape_altered(scene_of(derived, start), sewn, {}, on_target, drape_options_of(options));
   };
   const DrapedAlteration after = drape_at(result.sewn, derived.derived.drape.drape);
   fit.problem = after.problem;
@@ -104,12 +105,13 @@ AlterFit fit_of(const DerivedGarment& derived, const AlterPatternResult& result,
 }
 
 AlterationScene scene_of(const DerivedGarment& derived, const Drape& start) {
-  return {derived.reference.mesh, derived.reference.fit, derived.derived.mesh, start, derived.target_body};
+  return {derived.reference.mesh, derived.reference.fit, derived.derived.mesh, start};
 }
 
 AlterInLoopResult alter_derived(const DerivedGarment& derived, const AlterOptions& job) {
+  DrapeSeries on_target(derived.target_body);
   return alter_in_loop(derived.reference.pattern, scene_of(derived, derived.transported.drape), derived.derived,
-                       alter_options_of(job), drape_options_of(job), plan_options_of(job));
+                       on_target, alter_options_of(job), drape_options_of(job), plan_options_of(job));
 }
 
 Image picture_of(const AlterPair& pair, const AlterPatternResult& result, int width) {

@@ -148,7 +148,8 @@ void derive(const SceneBodies& scene, const DrapeOptions& options, Answer& resul
   const auto plane = mirror_plane_of(usual, scene.pattern);
   const auto mirrors =
       plane ? find_garment_mirrors(scene.pattern, result.mesh, result.reference_drape, *plane) : GarmentMirrors{};
-  const DerivedPattern derived = derive_in_loop(scene.pattern, result.mesh, fit, scene.target, carried, mirrors,
+  DrapeSeries on_target(scene.target);
+  const DerivedPattern derived = derive_in_loop(scene.pattern, result.mesh, fit, on_target, carried, mirrors,
                                                 derive_options_of(usual), options, loop_options_of(usual));
   result.target_drape = derived.drape.drape;
   result.target_rest = derived.mesh.rest;

@@ -128,9 +128,8 @@ void print_target_itself(const DerivedGarment& derived, const DrapeOptions& opti
   std::printf("the target pattern itself: %.1f mm off; meshed anew:",
               kMmPerMetre * compare_positions(derived.transported.drape.nodes, derived.derived.drape.drape.nodes).rms);
   for (const double coarser : {0.93, 0.97, 1.03, 1.07}) {
-    const DrapedAlteration worn =
-        drape_altered(scene_of(derived, derived.transported.drape), sewn,
-                      coarser * derived.reference.mesh.target_edge_length, on_target, options);
+    const TriedOn worn = try_on(scene_of(derived, derived.transported.drape), sewn,
+                                coarser * derived.reference.mesh.target_edge_length, on_target, options);
     std::printf(" %.1f", kMmPerMetre * worn.position.rms);
   }
   std::printf("\n");
@@ -139,10 +138,11 @@ void print_target_itself(const DerivedGarment& derived, const DrapeOptions& opti
 void tell(const AlterPair& pair, const AlterOptions& job, StageCache* stages) {
   const DerivedGarment derived = derive_pair(pair.garment, pair.body, job, stages);
   const AlterPatternResult altered = alter_derived(derived, job).altered;
+  DrapeSeries on_target(derived.target_body);
   const auto drape = [&](bool keep) {
     DrapeOptions options = drape_options_of(job);
     options.keep_drape = keep;
-    return drape_altered(scene_of(derived, derived.transported.drape), altered.sewn, options);
+    return drape_altered(scene_of(derived, derived.transported.drape), altered.sewn, {}, on_target, options);
   };
   const Where where{derived, altered, drape(true), drape(false)};
   std::printf("%s for %s: %zu operations, ", pair.garment.c_str(), pair.body.c_str(), altered.ticket.operations.size());

@@ -41,7 +41,9 @@ struct Curtain {
   }
 
   AlterInLoopResult alter(int max_plans, AlterPatternOptions options = {}) const {
-    return alter_in_loop(pattern, {mesh, fit, target.mesh, place, body}, target, options, {}, {.max_plans = max_plans});
+    DrapeSeries on_body(body);
+    return alter_in_loop(pattern, {mesh, fit, target.mesh, place}, target, on_body, options, {},
+                         {.max_plans = max_plans});
   }
 };
 
@@ -128,6 +130,23 @@ TEST(AlterInLoop, AHigherAllowedStretchNeverNeedsMoreOperations) {
     operations.push_back(curtain.alter(3, {.stretch_limit = mu}).altered.ticket.operations.size());
   EXPECT_TRUE(std::is_sorted(operations.rbegin(), operations.rend()));
   EXPECT_GT(operations.front(), operations.back());
+}
+
+TEST(AlterInLoop, AGarmentTriedOnWithItsOwnMeshIsNotDrapedAgain) {
+  const Curtain curtain(kLonger);
+  const AlterInLoopResult result = curtain.alter(3);
+  ASSERT_EQ(result.place.kept, 1);
+  const AlterationScene scene{curtain.mesh, curtain.fit, curtain.target.mesh, curtain.target.drape.drape};
+  DrapeSeries on_body(curtain.body);
+  const DrapedAlteration kept = drape_altered(scene, result.altered.sewn, result.worn, on_body, {}),
+                         anew = drape_altered(scene, result.altered.sewn, {}, on_body, {});
+  EXPECT_EQ(kept.mesh.triangle_count(), result.place.kept_plan().triangles);
+  EXPECT_EQ(to_bytes(kept.drape), to_bytes(result.worn.drape));
+  // As if it were draped from the target pattern's drape, and compared with that.
+  EXPECT_LT(compare_positions(kept.drape.drape.nodes, anew.drape.drape.nodes).largest, 2e-3);
+  EXPECT_NEAR(kept.position.rms, anew.position.rms, 1e-3);
+  EXPECT_EQ(to_bytes(kept.reference), to_bytes(anew.reference));
+  EXPECT_EQ(Curtain(kLonger, 3).alter(1).worn.mesh.triangle_count(), 0);
 }
 
 TEST(AlterInLoop, AFineGarmentIsTriedOnWithACoarserMesh) {

@@ -25,9 +25,10 @@ class DeriveInLoop : public testing::Test {
   static void TearDownTestSuite() { garment_ = {}; }
 
   static DerivedPattern derive(const DeriveInLoopOptions& loop) {
-    return derive_in_loop(garment_.reference.pattern, garment_.reference.mesh, garment_.reference.fit,
-                          garment_.target_body, garment_.transported.drape, {}, derive_options_of(options_),
-                          drape_options_of(options_), loop);
+    DrapeSeries on_target(garment_.target_body);
+    return derive_in_loop(garment_.reference.pattern, garment_.reference.mesh, garment_.reference.fit, on_target,
+                          garment_.transported.drape, {}, derive_options_of(options_), drape_options_of(options_),
+                          loop);
   }
 
   static inline AlterOptions options_;

@@ -178,7 +178,7 @@ TEST(TubePipeline, AltersAlikeWhateverFilesAreAskedFor) {
     const AlterResult result = alter_garment(tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
                                              {.name = "builtin:tube-18-125", .bytes = {}}, options, runner);
     EXPECT_GT(result.place.kept_plan().position, 0.0);
-    return to_bytes(AlterInLoopResult{result.altered, result.place});
+    return to_bytes(AlterInLoopResult{result.altered, {}, result.place});
   };
   const Bytes for_ticket = altered("ticket.json");
   EXPECT_EQ(altered("target_after.obj"), for_ticket);

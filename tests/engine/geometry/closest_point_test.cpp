@@ -113,6 +113,27 @@ TEST(ClosestPoint, TreeAgreesWithBruteForceWithAndWithoutAStart) {
   }
 }
 
+// Lattice nodes in planes of symmetry and beyond edges and corners lie equally near to several triangles.
+TEST(ClosestPoint, TheDistanceHasTheSameBitsWhateverTheSearchStartsWith) {
+  const Surface s = sphere(12, 0.7, {0.1, 0, 0});
+  const SurfaceTree tree(s.vertices, s.triangles);
+  std::mt19937 random(8);
+  int other_triangle = 0;
+  for (int i = 0; i < 300; ++i) {
+    Vec3 p = random_point(random, 1.5);
+    if (i % 2 == 0) p = 1.7 * s.vertices.row(i % s.vertices.rows()).transpose();
+    int alone = -1;
+    const double distance = tree.distance(p, alone);
+    ASSERT_NEAR(distance, brute_force(s, p).distance(), 1e-13);
+    for (int start = 0; start < tree.triangle_count(); ++start) {
+      int from = start;
+      ASSERT_EQ(tree.distance(p, from), distance);
+      other_triangle += from != alone;
+    }
+  }
+  EXPECT_GT(other_triangle, 0);
+}
+
 TEST(ClosestPoint, NothingIsFoundBeyondTheGivenDistance) {
   const Surface s = sphere(6, 0.5, {0, 0, 0});
   const SurfaceTree tree(s.vertices, s.triangles);

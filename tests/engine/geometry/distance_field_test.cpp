@@ -125,7 +125,7 @@ TEST(DistanceField, LookingAheadFillsJustWhatIsVisitedAndTheSameWithAnIdleThread
   for (const Vec3& p : list) {
     Vec3 gradient, other;
     const double distance = visited.evaluate(p, kReach, gradient), known = ahead.evaluate(p, kReach, other);
-    ASSERT_NEAR(distance, known, 1e-8);
+    ASSERT_EQ(distance, known);
     ASSERT_EQ(known, shared.evaluate(p, kReach, other));
   }
   EXPECT_EQ(ahead.lattice_nodes_computed(), computed);
@@ -140,7 +140,7 @@ TEST(DistanceField, ValuesDoNotDependOnTheOrderOfVisits) {
   Vec3 gradient;
   std::vector<double> values;
   for (const Vec3& p : points) values.push_back(forward.evaluate(p, kFar, gradient));
-  for (std::size_t i = points.size(); i-- > 0;) ASSERT_NEAR(back.evaluate(points[i], kFar, gradient), values[i], 1e-8);
+  for (std::size_t i = points.size(); i-- > 0;) ASSERT_EQ(back.evaluate(points[i], kFar, gradient), values[i]);
 }
 
 TEST(DistanceField, RefusesABodyInTheWrongUnit) {

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/archive_stages.h"
+#include "engine/core/archive.h"
+#include "engine/stages/drape_series.h"
 #include "tests/support/tubes.h"
 
 namespace toile {
@@ -69,6 +72,18 @@ TEST(Drape, NewtonGoesOnFromTheDefaultsEndToTheMinimum) {
   EXPECT_LT(exact.diagnostics.energy, usual.diagnostics.energy);
   EXPECT_GT(exact.diagnostics.iterations, usual.diagnostics.iterations);
   EXPECT_LT((exact.drape.nodes - usual.drape.nodes).rowwise().norm().maxCoeff(), 0.005);
+}
+
+TEST(Drape, InASeriesIsTheSameWhateverWasDrapedBefore) {
+  const TightTube t;
+  const Drape start{test::placed_nodes(t.pattern, t.mesh)};
+  Drape lower = start;
+  lower.nodes.col(1).array() -= 0.1;
+  const DrapeResult alone = drape_from(t.pattern, t.mesh, t.body, start, {}, nullptr);
+  DrapeSeries series(t.body);
+  const DrapeResult first = series.drape_from(t.pattern, t.mesh, lower, {}, nullptr);
+  EXPECT_NE(to_bytes(first), to_bytes(alone));
+  EXPECT_EQ(to_bytes(series.drape_from(t.pattern, t.mesh, start, {}, nullptr)), to_bytes(alone));
 }
 
 TEST(Drape, GivenStartIsKeptWhenAsked) {
