@@ -11,6 +11,7 @@ namespace toile {
 namespace {
 
 constexpr double kPastMouth = 0.001;  // m
+constexpr double kCrumb = 1e-4;       // m^2
 
 // Outlines of a panel's darts and slits, which the stretched sheet has filled; a little past the mouth, so that no skin
 // of cloth closes it.
@@ -29,6 +30,15 @@ Loops wedge_outlines(const std::vector<DartWedge>& wedges, const Points2& rest) 
     outlines.push_back(std::move(loop));
   }
   return outlines;
+}
+
+// A cut along the tip of a dart parts the cloth there in two.
+Loops parts_without(const std::vector<Vec2>& outline, const Loops& wedges) {
+  if (wedges.empty()) return {outline};
+  Loops parts;
+  for (PolygonWithHoles& part : polygon_difference({outline}, wedges))
+    if (area(part) > kCrumb) parts.push_back(std::move(part.outline));
+  return parts;
 }
 
 // The largest part: crumbs come from darts of the target that cross themselves.
@@ -99,7 +109,8 @@ PanelAlteration alteration_of(const Panel& panel, const Sheet& inserting, const 
   result.target = outline_without(insertion.wanted, target_wedges);
   result.kept = kept_cloth(inserting, removal, original_wedges);
   result.cut_lines = cut_lines(inserting);
-  for (const auto& kept : insertion.kept) result.kept_in_target.push_back(outline_without(kept, target_wedges));
+  for (const auto& kept : insertion.kept)
+    for (auto& part : parts_without(kept, target_wedges)) result.kept_in_target.push_back(std::move(part));
   result.insertions = regions_of(insertion, panel.name + "_insertion_");
   result.removals = regions_of(removal, panel.name + "_removal_");
   result.cut_back = insertion.cut_back;

@@ -22,6 +22,7 @@ constexpr double kHemRelief = 0.2;    // jobs that a free edge is easier than a 
 constexpr double kStraightOn = 60.0;  // degrees: sides that turn less across a seam run on
 constexpr double kSameCut = 0.03;     // m, along a side
 constexpr double kProbe = 0.004;      // m, between the places where a line is looked at
+constexpr double kBeside = 0.01;      // m, from a dart: nearer to one a cut leaves crumbs of cloth between them
 constexpr int kMostCuts = 4;          // of one panel
 
 double total_turn(const SideCurve& side) {
@@ -175,15 +176,17 @@ std::vector<TearMouth> cut_mouths(Sheet sheet, const Tear& tear) {
   return mouths;
 }
 
-// Whether the straight way from a to b in the cloth leads through what a dart or slit has folded away.
-bool crosses_wedge(const Sheet& sheet, const Vec2& a, const Vec2& b) {
+// Whether the straight way from a to b in the cloth leads through what a dart or slit has folded away, or close by.
+bool meets_wedge(const Sheet& sheet, const Vec2& a, const Vec2& b) {
   const int steps = 1 + static_cast<int>((b - a).norm() / kProbe);
   for (std::size_t f = 0; f < sheet.faces.size(); ++f) {
     if (!sheet.folded[f]) continue;
     std::vector<Vec2> triangle;
     for (const int v : sheet.faces[f]) triangle.push_back(sheet.vertices[static_cast<std::size_t>(v)].flat);
-    for (int i = 0; i <= steps; ++i)
-      if (inside_polygon(triangle, a + (b - a) * i / steps)) return true;
+    for (int i = 0; i <= steps; ++i) {
+      const Vec2 probe = a + (b - a) * i / steps;
+      if (inside_polygon(triangle, probe) || distance_to_polygon(triangle, probe) < kBeside) return true;
+    }
   }
   return false;
 }
@@ -237,7 +240,7 @@ class CutMaker {
     std::vector<TearMouth> mouths = cut_mouths(sheet, tear);
     if (mouths.empty()) return;
     for (const TearMouth& mouth : mouths)
-      if (crosses_wedge(sheet, vertex.flat, sheet.cloth_sides[static_cast<std::size_t>(mouth.side)].point(mouth.at)))
+      if (meets_wedge(sheet, vertex.flat, sheet.cloth_sides[static_cast<std::size_t>(mouth.side)].point(mouth.at)))
         return;
     any = true;
     known_.push_back({panel, job, mouths});

@@ -89,8 +89,8 @@ TEST_P(AlterAlongSeams, AHigherPreferenceForSeamsCutsLess) {
 
 INSTANTIATE_TEST_SUITE_P(Slow, AlterAlongSeams,
                          testing::Values(Preference{"leggings_zero_ease", "ggg_large_male", 0.02},
-                                         Preference{"tshirt_fitted", "ggg_large_male", 0.02},
-                                         Preference{"pants_straight", "ggg_male_extra", 0.015}));
+                                         Preference{"sweater_loose_hood", "ggg_male_extra", 0.015},
+                                         Preference{"dress_sleeveless", "ggg_male_extra", 0.01}));
 
 }  // namespace
 }  // namespace toile

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/geometry/inner_point.h"
+#include "engine/stages/mesh_panels.h"
 #include "tests/engine/alter/altered_grid.h"
 #include "tests/support/count_tears.h"
 
@@ -145,6 +146,26 @@ TEST(AlterPattern, CutsKeepOutOfAPocketAndTakeAnotherPlaceIfThetaGivesIt) {
   expect_areas(result, {480, 0}, 1);
   ASSERT_FALSE(result.panels[0].cut_lines.empty());
   for (const Vec2& p : result.panels[0].cut_lines[0]) EXPECT_GT(std::abs(p.x() - 0.2), 0.04);
+}
+
+// The cut would run down the middle, about x = 0.21.
+TEST(AlterPattern, NoCutPassesCloseByTheTipOfADart) {
+  for (const double tip : {0.12, 0.202}) {
+    Panel panel;
+    panel.name = "front";
+    panel.corners = {{0, 0}, {0.4, 0}, {0.4, 0.6}, {0, 0.6}, {0, 0.32}, {tip, 0.3}, {0, 0.28}};
+    panel.edges.resize(panel.corners.size());
+    for (const std::size_t edge : {1, 3, 6}) panel.edges[edge].locked = true;
+    Pattern pattern;
+    pattern.panels = {panel};
+    pattern.seams = {{{PanelId(0), 4}, {PanelId(0), 5}, false}};
+    const PatternMesh mesh = mesh_panels(pattern, {1500, {}});
+    Points2 wide = mesh.rest;
+    wide.col(0) *= 1.2;
+    const AlterPatternResult result = alter_pattern(pattern, mesh, wide, {});
+    EXPECT_EQ(test::tears_of(result, TearKind::Edge), tip < 0.19 ? 1u : 0u) << tip;
+    EXPECT_EQ(result.flags.empty(), tip < 0.19);
+  }
 }
 
 TEST(AlterPattern, ALockedPanelIsLeftAlone) {
