@@ -48,9 +48,9 @@ void archive(A& a, DrapeFinding& v) {
 template <class A>
 void archive(A& a, DrapeDiagnostics& v) {
   auto& [upper_shift, bodice, hold_height, moved_nodes, sewing_iterations, iterations, evaluations, energy, stalled,
-         rung, findings] = v;
-  a(upper_shift, bodice, hold_height, moved_nodes, sewing_iterations, iterations, evaluations, energy, stalled, rung,
-    findings);
+         tangled, rung, findings] = v;
+  a(upper_shift, bodice, hold_height, moved_nodes, sewing_iterations, iterations, evaluations, energy, stalled, tangled,
+    rung, findings);
 }
 template <class A>
 void archive(A& a, StrainPercentiles& v) {

@@ -50,7 +50,7 @@ DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& referen
   const Scene scene{pattern, reference_mesh, reference_fit, on_target, mirrors};
   DerivedPattern best = derive_and_drape(scene, transported, nullptr, derive_options, drape_options, progress);
   std::vector<double> errors = {best.rms_stretch_error};
-  while (static_cast<int>(errors.size()) < options.max_passes &&
+  while (static_cast<int>(errors.size()) < options.max_passes && !best.drape.diagnostics.tangled &&
          (!at_rest(best) || best.rms_stretch_error > options.good_enough)) {
     DerivedPattern next =
         derive_and_drape(scene, best.drape.drape, &best.derivation.rest, derive_options, drape_options, progress);
@@ -59,7 +59,8 @@ DerivedPattern derive_in_loop(const Pattern& pattern, const PatternMesh& referen
     const double bar = (1.0 - options.least_nearer) * best.rms_stretch_error;
     // Rest is worth as much error as a further pass.
     const double worth = options.least_gain * (static_cast<int>(at_rest(next)) - static_cast<int>(at_rest(best)));
-    if (next.rms_stretch_error < bar + worth) best = std::move(next);
+    if (!(next.rms_stretch_error < bar + worth)) break;  // a further pass would be the same again
+    best = std::move(next);
     if (!gained && at_rest(best)) break;
   }
   best.pass_errors = std::move(errors);

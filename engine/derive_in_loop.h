@@ -4,7 +4,7 @@
 //
 // The first pass inverts the transported drape, which no physics has relaxed yet; each later pass inverts the drape of
 // the pattern before it. The pass with the smallest rms stretch error is kept; one whose drape did not come to rest is
-// followed by another.
+// followed by another, unless its layers are tangled: such a drape tells nothing. A pass that is not kept is the last.
 // Source: [Eggler2024, Sec. 5.1 "Accounting for physics"]; the order of the passes was measured, see method.md
 // section 4.
 #pragma once

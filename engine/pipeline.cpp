@@ -23,11 +23,11 @@ Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>&
                               const AlterOptions& options, StageRunner& runner) {
   const MeshPanelsOptions mesh_options = mesh_options_of(options);
   const DrapeOptions drape_options = drape_options_of(options);
-  const auto mesh = runner.run("mesh_panels", 2, key_of(pattern.key, mesh_options), [&] {
+  const auto mesh = runner.run("mesh_panels", 3, key_of(pattern.key, mesh_options), [&] {
     if (auto given = read_garment_mesh(garment)) return std::move(*given);
     return mesh_panels(pattern.value, mesh_options, runner.progress());
   });
-  const auto worn = runner.run("drape", 24, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
+  const auto worn = runner.run("drape", 25, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
     const auto given = read_garment_drape(garment, wearer.value);
     if (!given) return drape(pattern.value, mesh.value, wearer.value, drape_options, runner.progress());
     DrapeOptions from_given = drape_options;
@@ -91,7 +91,7 @@ DerivedOnBody derive_on_body(const GarmentInput& garment, const BodyInput& refer
       [&](StageRunner& part) -> std::optional<DrapeResult> {
         if (!wants_before(options)) return part.skip("drape_before"), std::nullopt;
         return part
-            .run("drape_before", 21, key_of(transported.key, drape_options),
+            .run("drape_before", 22, key_of(transported.key, drape_options),
                  [&] {
                    DrapeSeries beside(target);
                    return (part.at_once() ? beside : *on_target)
@@ -100,7 +100,7 @@ DerivedOnBody derive_on_body(const GarmentInput& garment, const BodyInput& refer
             .value;
       },
       [&](StageRunner& part) {
-        return part.run("derive_pattern", 27, key_of(transported.key, derive_options, loop_options, plane), [&] {
+        return part.run("derive_pattern", 28, key_of(transported.key, derive_options, loop_options, plane), [&] {
           const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
           return derive_in_loop(pattern, mesh, fit, *on_target, transported.value.drape, mirrors, derive_options,
                                 drape_options, loop_options, part.progress());
@@ -156,7 +156,7 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
     runner.skip("drape_altered");
     return {std::move(ideal.value), std::move(alteration), std::move(place), {}};
   }
-  auto after = runner.run("drape_altered", 21, key_of(altered.key, ideal.key, drape_options), [&] {
+  auto after = runner.run("drape_altered", 22, key_of(altered.key, ideal.key, drape_options), [&] {
     return drape_altered(scene_from(derived.drape.drape), alteration.sewn, std::move(tried_on), *on_body.on_target,
                          drape_options, runner.progress());
   });

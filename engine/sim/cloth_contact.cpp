@@ -368,6 +368,10 @@ bool ClothContact::keep_within(double ball, Points3& to) {
   return kept;
 }
 
+double ClothContact::tangle() const {
+  return static_cast<double>(piercings()) / (options_.half ? options_.half->cloth : cloth_).triangle_count;
+}
+
 bool ClothContact::moved_beyond(double distance, const Points3& nodes) {
   if (moved_ <= distance) return false;
   moved_ = farthest(seen_at_, nodes);

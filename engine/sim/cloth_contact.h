@@ -65,6 +65,8 @@ class ClothContact {
   double reach() const { return reach_; }  // within which the last refresh looked for pairs, m
 
   int piercings() const { return static_cast<int>(piercings_.size()); }
+  double tangle() const;                          // piercings per triangle of the cloth that moves
+  static constexpr double kTangled = 0.1;         // worn and transported garments have under 0.01
   int planes() const { return planes_.count(); }  // 0: nothing is within reach
 
  private:

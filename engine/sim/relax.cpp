@@ -160,7 +160,10 @@ class Relaxation {
     result_.residual = energy_.residual(minimiser.gradient());
     result_.converged = result_.residual < options_.stop_residual;
     if (!whole_round) return;
-    result_.stalled |= standstill_.after_round(result_.residual, minimiser.energy());
+    if (standstill_.after_round(result_.residual, minimiser.energy(), tangle())) {
+      result_.stalled = true;
+      result_.tangled = standstill_.tangled();
+    }
     const Points3 nodes = whole(minimiser.nodes());
     const std::vector<Vec3> means = watched_means(nodes);
     result_.last_move = 0;
@@ -175,6 +178,8 @@ class Relaxation {
     result_.settled = calm && result_.residual < options_.settled_everywhere;
     knotted_ = energy_.cloth_contact && energy_.cloth_contact->piercings() > 0;
   }
+
+  double tangle() const { return energy_.cloth_contact ? energy_.cloth_contact->tangle() : 0.0; }
 
   Points3 whole(const Points3& nodes) const { return energy_.half ? energy_.half->unfolded(nodes) : nodes; }
 

@@ -41,6 +41,7 @@ struct RelaxResult {
   bool converged = false;  // stop_residual reached with friction just frozen
   bool settled = false;    // settled_residual and settled_move reached over a full round
   bool stalled = false;    // no further decrease could be found, or it gets nowhere (standstill.h)
+  bool tangled = false;    // it gets nowhere for layers that do not come free
 };
 
 // `start` and the result: of the whole garment, also where the energy is that of a half.

@@ -73,11 +73,12 @@ class RestSeeker {
     if (options_.solver == SolverKind::Newton && options_.friction == 0) return refine(energy, start), false;
     const RelaxResult relaxed = relax(energy, start, relax_options(), progress_);
     take_over(relaxed);
+    result_.diagnostics.tangled = relaxed.tangled;
     friction_ = garment_.half ? garment_.half->unfolded(contact.friction()) : contact.friction();
     result_.quality.settling_move = relaxed.last_move;
     result_.quality.rest = rest_of(relaxed);
     if (options_.solver == SolverKind::Newton) return refine(energy, relaxed.nodes), false;
-    return presses_deep(energy, contact.distances(), edges);
+    return !relaxed.tangled && presses_deep(energy, contact.distances(), edges);
   }
 
   // Of the nodes of the garment those that the solver moves.

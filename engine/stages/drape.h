@@ -57,7 +57,8 @@ struct DrapeDiagnostics {
   int iterations = 0;
   int evaluations = 0;
   double energy = 0.0;                 // J
-  bool stalled = false;                // no further decrease could be found
+  bool stalled = false;                // no further decrease could be found, or it got nowhere
+  bool tangled = false;                // it got nowhere for layers that do not come free
   int rung = 0;                        // of the retry ladder that gave the result
   std::vector<DrapeFinding> findings;  // warnings; from flat none is a refusal
 };

@@ -52,7 +52,9 @@ class Guards {
     check_strain();
     if (quality_.crossing_share > kCrossing)
       warn("crosses_itself", in_percent(quality_.crossing_share) + " of the triangles cross another one");
-    if (quality_.rest == Rest::NotAtRest) warn("not_at_rest", "the cloth still moves: more iterations are needed");
+    if (quality_.rest == Rest::NotAtRest)
+      warn("not_at_rest", scene_.tangled ? "the cloth still moves: its layers are tangled and do not come free"
+                                         : "the cloth still moves: more iterations are needed");
     return findings_;
   }
 

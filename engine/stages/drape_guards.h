@@ -24,6 +24,7 @@ struct GuardScene {
   const BodyGuides* guides = nullptr;
   std::vector<int> waist;    // nodes held, may be empty
   double hold_height = 0.0;  // m
+  bool tangled = false;      // see DrapeDiagnostics
 };
 
 // `quality` is that of `drape`. Findings in the order of the names above.

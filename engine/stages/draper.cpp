@@ -14,8 +14,6 @@ namespace {
 constexpr double kMoreLift = 0.03;  // m
 constexpr SewingStage kFirmStage{10000, 1.0, 40};
 
-constexpr double kTangledShare = 0.1;  // of piercings in the triangles: worn and transported garments have under 0.01
-
 constexpr double kHalfDeep = 5e-4;  // m: a half with nodes deeper inside the body is no rest
 constexpr double kPinShare = 50;    // stiffness of a pin over that of contact: 1 N/m of tension moves it by 0.2 mm
 
@@ -159,7 +157,7 @@ Points3 Draper::smoothed(Points3 start, const SewingOptions& options) {
 bool Draper::tangled(const Points3& start) const {
   ClothContact layers(cloth_, mesh_, ClothContactOptions{});
   layers.refresh(start);
-  return layers.piercings() > kTangledShare * cloth_.triangle_count;
+  return layers.tangle() > ClothContact::kTangled;
 }
 
 Points3 Draper::arranged(double lift) {
@@ -200,8 +198,8 @@ void Draper::finish(const Points3& start) {
   else
     rest_from(start);
   measure();
-  if (half_ && !rests_well()) half_.reset(), rest_from(start), measure();
-  GuardScene scene{mesh_, nullptr, nullptr, waist_, result_.diagnostics.hold_height};
+  if (half_ && !rests_well() && !result_.diagnostics.tangled) half_.reset(), rest_from(start), measure();
+  GuardScene scene{mesh_, nullptr, nullptr, waist_, result_.diagnostics.hold_height, result_.diagnostics.tangled};
   if (body_.skeleton) scene.garment = &garment_, scene.guides = &guides_;
   result_.diagnostics.findings = check_drape(scene, result_.drape, result_.quality);
   report(progress_, "drape", 1);

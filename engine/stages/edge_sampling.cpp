@@ -15,6 +15,7 @@ namespace {
 constexpr double kCollapse = 0.25;       // of the edge length: shorter edges become one vertex
 constexpr double kMostCollapsed = 0.5;   // of the edge length: a run of collapsed edges is never longer
 constexpr double kRoundingGuard = 1e-6;  // keeps mirrored edges of equal length on the same side of a half step
+constexpr int kLeastSides = 3;           // of a panel that do not collapse
 constexpr int kLoopSegments = 3;         // fewest on an edge whose two ends are sewn into one point
 
 int rounded_steps(double length, double edge_length) {
@@ -45,6 +46,7 @@ EdgeSampling::EdgeSampling(const Pattern& pattern, const PanelMirrors& mirrors, 
     for (std::size_t i = 0; i + 1 < group.breaks.size(); ++i)
       group.steps.push_back(rounded_steps((group.breaks[i + 1] - group.breaks[i]) * group.length, edge_length));
   collapse_short_groups(pattern, edge_length);
+  keep_three_sides(pattern);
   open_closed_loops(pattern);
   fill_small_panels(pattern);
 }
@@ -145,6 +147,16 @@ void EdgeSampling::collapse_short_groups(const Pattern& pattern, double edge_len
     if (group.length >= kCollapse * edge_length) break;
     group.collapsed = std::all_of(sides[static_cast<std::size_t>(g)].begin(), sides[static_cast<std::size_t>(g)].end(),
                                   [&](const SeamSide& side) { return run(side) < kMostCollapsed * edge_length; });
+  }
+}
+
+// Of a narrow strip whose both ends collapse two straight sides would be left between the same two vertices.
+void EdgeSampling::keep_three_sides(const Pattern& pattern) {
+  for (int p = 0; p < static_cast<int>(places_.size()); ++p) {
+    const int edges = pattern.panels[static_cast<std::size_t>(p)].edge_count();
+    int left = 0;
+    for (int e = 0; e < edges; ++e) left += !group_of(p, e).collapsed;
+    for (int e = 0; e < edges && left < kLeastSides; ++e) group_of(p, e).collapsed = false;
   }
 }
 

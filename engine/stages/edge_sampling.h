@@ -2,7 +2,8 @@
 // Where along every panel edge the mesh has vertices, such that both sides of a seam pair up.
 //
 // Edges sewn to each other share one list of arc-length fractions, n = round(mean length / h) even steps between
-// notches; sides shorter than h / 4 collapse into one vertex. Lengths in metres.
+// notches; sides shorter than h / 4 collapse into one vertex, unless that left their panel fewer than three sides.
+// Lengths in metres.
 #pragma once
 
 #include <vector>
@@ -46,6 +47,7 @@ class EdgeSampling {
   void share_mirrored_lengths(const PanelMirrors& mirrors);
   void add_breaks(const Pattern& pattern, const PanelMirrors& mirrors, double edge_length);
   void collapse_short_groups(const Pattern& pattern, double edge_length);
+  void keep_three_sides(const Pattern& pattern);
   void open_closed_loops(const Pattern& pattern);
   void fill_small_panels(const Pattern& pattern);
   Group& group_of(int panel, int edge);

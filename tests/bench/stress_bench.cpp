@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // stress [--scenes N] [--seed S] [--kind KIND] [--limit SECONDS] [--all]
 // The long run of the stress suite (tests/stress): scene after scene, each in a process of its own, so that a crash or
-// a hang (more CPU seconds than the limit) is one more bad scene and not the end. Prints every bad scene with its seed,
-// and how many were done, refused and bad; --all prints the refused ones too. Ends with 1 when a scene was bad or more
-// than 1 % of those inside the human range were refused.
+// a hang (more CPU seconds than the limit) is one more bad scene and not the end. Prints every bad scene and every one
+// that took over half the limit with its seed, and how many were done, refused and bad; --all prints the refused ones
+// too. Ends with 1 when a scene was bad or more than 1 % of those inside the human range were refused.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -118,10 +118,11 @@ void count(const Outcome& outcome, Count& c) {
 
 void tell(const Request& request, std::uint64_t seed, const Outcome& outcome) {
   const bool odd = outcome.ending == Ending::Refused && outcome.human_range;
-  if (outcome.ending != Ending::Bad && !odd && !(request.all && outcome.ending == Ending::Refused)) return;
-  std::printf("%s seed %llu (%s%s, %.1f s): %s\n", outcome.ending == Ending::Bad ? "BAD" : "refused",
-              static_cast<unsigned long long>(seed), outcome.kind.c_str(), outcome.human_range ? ", human range" : "",
-              outcome.cpu_s, outcome.what.c_str());
+  const bool slow = outcome.cpu_s > 0.5 * request.limit;
+  if (outcome.ending != Ending::Bad && !odd && !slow && !(request.all && outcome.ending == Ending::Refused)) return;
+  const char* ended = outcome.ending == Ending::Bad ? "BAD" : outcome.ending == Ending::Done ? "slow" : "refused";
+  std::printf("%s seed %llu (%s%s, %.1f s): %s\n", ended, static_cast<unsigned long long>(seed), outcome.kind.c_str(),
+              outcome.human_range ? ", human range" : "", outcome.cpu_s, outcome.what.c_str());
   if (!outcome.error.empty()) std::printf("    %s\n", outcome.error.c_str());
   for (const std::string& wrong : outcome.wrong) std::printf("    %s\n", wrong.c_str());
   std::fflush(stdout);

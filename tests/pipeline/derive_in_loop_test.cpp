@@ -54,5 +54,10 @@ TEST_F(DeriveInLoop, KeepsALaterPassOnlyWhereItIsAsMuchNearerAsAsked) {
   EXPECT_EQ(first.rms_stretch_error, first.pass_errors.front());
 }
 
+TEST_F(DeriveInLoop, TriesNoPassTwice) {
+  const DerivedPattern first = derive({.good_enough = 0.0, .least_gain = -1.0, .least_nearer = 1.0});
+  EXPECT_EQ(first.pass_errors.size(), 2u) << "the second was not kept: a third would begin where it began";
+}
+
 }  // namespace
 }  // namespace toile

@@ -16,6 +16,7 @@ struct JobScene {
   bool shiftable = false;  // forms: the whole scene may be moved sideways
 };
 
+test::Dice dice_of(std::uint64_t seed);  // of the scene with this seed
 JobScene patchwork_scene(test::Dice& dice, Outcome& outcome);
 JobScene person_scene(test::Dice& dice, Outcome& outcome);
 

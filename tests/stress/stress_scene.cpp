@@ -38,6 +38,10 @@ bool may_be_refused(ErrorCode code) {
 
 }  // namespace
 
+test::Dice dice_of(std::uint64_t seed) {
+  return test::Dice(seed * 0x2545f4914f6cdd1dULL + 0x9e3779b9ULL);
+}
+
 const std::vector<std::string>& scene_kinds() {
   static const std::vector<std::string> kinds = {"patchwork", "person", "body", "cut", "derive"};
   return kinds;
@@ -46,7 +50,7 @@ const std::vector<std::string>& scene_kinds() {
 Outcome run_scene(const std::string& kind, std::uint64_t seed) {
   Outcome outcome;
   outcome.kind = kind;
-  test::Dice dice(seed * 0x2545f4914f6cdd1dULL + 0x9e3779b9ULL);
+  test::Dice dice = dice_of(seed);
   const double start = thread_cpu_seconds();
   try {
     run_kind(dice, outcome);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/io/garmentcode_json.h"
+#include "tests/stress/job_scene.h"
 #include "tests/stress/stress_scene.h"
 
 namespace toile::stress {
@@ -59,9 +61,29 @@ INSTANTIATE_TEST_SUITE_P(
                     Fixture{"patchwork", 26, "curves drawn through the pieces' borders crossed each other"},
                     Fixture{"patchwork", 3385, "a narrow piece touched itself once it was drawn"},
                     Fixture{"patchwork", 3506, "a piece smaller than a panel may be"},
+                    Fixture{"patchwork", 41186, "strips meshed as needles: their derived pattern was next to nothing"},
+                    Fixture{"patchwork", 51181, "cloth tangled beyond mending was draped for a minute and a half"},
                     Fixture{"cut", 20, "two corners of a piece fell into one: an edge of no length"},
                     Fixture{"cut", 1012, "a piece had a corner kilometres away"}),
     [](const auto& fixture) { return fixture.param.kind + std::to_string(fixture.param.seed); });
+
+// A tube of cloth that gives in its height alone, too narrow for the bulge it is pulled over.
+TEST(Tangle, IsGivenUpOnceAndSaid) {
+  test::Dice dice = dice_of(51181);
+  Outcome outcome;
+  const JobScene scene = patchwork_scene(dice, outcome);
+  const std::string text = write_garmentcode(scene.pattern);
+  StageRunner runner(nullptr, nullptr, kDrapeStages);
+  const DrapeResult worn =
+      drape_garment({"garment.json", Bytes(text.begin(), text.end())}, scene.reference, scene.options, runner)
+          .value.drape;
+  EXPECT_TRUE(worn.diagnostics.tangled);
+  EXPECT_EQ(worn.quality.rest, Rest::NotAtRest);
+  EXPECT_LT(worn.diagnostics.iterations, 1000) << "of 3,000 with every one of several contact stiffnesses";
+  EXPECT_LT(worn.diagnostics.moved_nodes, 500) << "the whole was draped after its half";
+  ASSERT_FALSE(worn.diagnostics.findings.empty());
+  EXPECT_NE(worn.diagnostics.findings.back().message.find("tangled"), std::string::npos);
+}
 
 }  // namespace
 }  // namespace toile::stress

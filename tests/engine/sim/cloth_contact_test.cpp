@@ -96,6 +96,20 @@ TEST(ClothContact, GradientIsTheDerivativeWherePiercedClothIsDrawnApart) {
   test::expect_gradient(energy_of(contact), nodes, 1e-8, 1e-5);
 }
 
+TEST(ClothContact, TangleIsTheShareOfPiercings) {
+  const TwoSheets sheets;
+  ClothContact contact(sheets.cloth, sheets.garment.mesh, {});
+  Points3 nodes = sheets.apart(0.01);
+  contact.refresh(nodes);
+  EXPECT_EQ(contact.tangle(), 0.0);
+  const Points3 lower = nodes;
+  for (Eigen::Index i = 0; i < nodes.rows(); ++i)  // the upper one turned upright, through the lower one
+    if (lower(i, 1) > 0) nodes.row(i) << lower(i, 0), lower(i, 2) + 0.0013, 0.0017;
+  contact.refresh(nodes);
+  ASSERT_GT(contact.piercings(), 5);
+  EXPECT_DOUBLE_EQ(contact.tangle(), contact.piercings() / 400.0);
+}
+
 TEST(ClothContact, HessianIsTheDerivativeOfTheGradient) {
   const TwoSheets s;
   ClothContact contact(s.cloth, s.garment.mesh, {});

@@ -183,6 +183,17 @@ TEST(MeshPanels, ShortEdgesCollapseOnBothSidesOfTheirSeam) {
   EXPECT_EQ(fine.edge_vertices[0][1].size(), 2u);
 }
 
+TEST(MeshPanels, ANarrowStripKeepsItsEnds) {
+  Pattern pattern;
+  pattern.panels.push_back(polygon_panel("strip", {{0, 0}, {0.008, 0}, {0.008, 0.5}, {0, 0.5}}));
+  const PatternMesh mesh = mesh_panels(pattern, {500, 0.04});
+  expect_sound(pattern, mesh);
+  for (const auto& edge : mesh.edge_vertices[0]) EXPECT_GE(edge.size(), 2u);
+  double area = 0.0;
+  for (int f = 0; f < mesh.triangle_count(); ++f) area += area_of(mesh, f);
+  EXPECT_NEAR(area, 0.004, 1e-9);
+}
+
 TEST(MeshPanels, NotchesBecomeVerticesOnBothSidesOfTheSeam) {
   Pattern pattern;
   pattern.panels.push_back(polygon_panel("a", {{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}}));
