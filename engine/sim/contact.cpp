@@ -8,7 +8,10 @@ namespace toile {
 namespace {
 
 constexpr double kLeastSlope = 1e-12;  // of a field's gradient: it vanishes on the medial axis
-constexpr std::size_t kAhead = 8;      // nodes: memory takes as long as these
+// Of the way to contact, that a node may go without being looked up: fields are a little steeper than 1 in creases, and
+// what they tell of distances beyond reach depends on what they were asked before.
+constexpr double kSure = 0.9;
+constexpr std::size_t kAhead = 8;  // nodes: memory takes as long as these
 
 }  // namespace
 
@@ -41,7 +44,7 @@ Contact::Contact(const Cloth& cloth, SignedField& field, const ContactOptions& o
 
 bool Contact::near(Eigen::Index i, const Vec3& p, Vec3& normal) {
   const double t = options_.thickness + taken_up_[i];
-  const double clear = distance_[i] - t;
+  const double clear = kSure * (distance_[i] - t);
   const Vec3 last = looked_up_at_.row(i);
   if (known_[static_cast<std::size_t>(i)] && clear > 0 && (p - last).squaredNorm() < clear * clear) return false;
   distance_[i] = field_.evaluate_again(p, t, normal, hint_[static_cast<std::size_t>(i)]);

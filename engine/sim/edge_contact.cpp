@@ -7,6 +7,7 @@ namespace toile {
 namespace {
 
 constexpr double kSeen = 0.001;  // m the middle of an edge may lie inside unnoticed: the field is as good as that
+constexpr double kSure = 0.5;    // of the way to there: as far a middle cannot have come, however steep the field
 
 std::vector<std::pair<int, int>> edges_of(const Cloth& cloth) {
   std::vector<std::pair<int, int>> edges;
@@ -32,16 +33,27 @@ EdgeContact::EdgeContact(const Cloth& cloth, SignedField& field, const ContactOp
     edges_.push_back({a, b, (on_cut(a) && on_cut(b) ? 0.25 : 0.5) * (area[a] + area[b])});
 }
 
+Vec3 EdgeContact::middle(const Edge& edge, const Points3& nodes) {
+  return 0.5 * (nodes.row(edge.a) + nodes.row(edge.b)).transpose();
+}
+
 double EdgeContact::depth(Edge& edge, const Points3& nodes, Vec3& normal) {
-  return -field_.evaluate_again(0.5 * (nodes.row(edge.a) + nodes.row(edge.b)).transpose(), 0.0, normal, edge.hint);
+  return -field_.evaluate_again(middle(edge, nodes), 0.0, normal, edge.hint);
 }
 
 bool EdgeContact::look(const Points3& nodes) {
   const int before = count();
   Vec3 normal;
   for (std::size_t k = 0; k < edges_.size(); ++k) {
-    if (edges_[k].kept || depth(edges_[k], nodes, normal) < kSeen) continue;
-    edges_[k].kept = true;
+    Edge& e = edges_[k];
+    if (e.kept || (middle(e, nodes) - e.looked_at).squaredNorm() < e.clear * e.clear) continue;
+    const double inside = depth(e, nodes, normal);
+    if (inside < kSeen) {
+      e.looked_at = middle(e, nodes);
+      e.clear = kSure * (kSeen - inside);
+      continue;
+    }
+    e.kept = true;
     kept_.push_back(static_cast<int>(k));
   }
   return count() > before;
@@ -51,8 +63,7 @@ std::vector<Vec3> EdgeContact::inside(const Points3& nodes) {
   std::vector<Vec3> middles;
   Vec3 normal;
   for (int k : kept_)
-    if (depth(edge(k), nodes, normal) > 0)
-      middles.push_back(0.5 * (nodes.row(edge(k).a) + nodes.row(edge(k).b)).transpose());
+    if (depth(edge(k), nodes, normal) > 0) middles.push_back(middle(edge(k), nodes));
   return middles;
 }
 
@@ -78,9 +89,8 @@ void EdgeContact::add_hessian(const Points3& nodes, Curvature curvature, BlockHe
     Edge& e = edge(k);
     const double inside = depth(e, nodes, normal);
     if (inside <= 0) continue;
-    const Vec3 middle = 0.5 * (nodes.row(e.a) + nodes.row(e.b)).transpose();
-    const Mat3 quarter =
-        0.25 * contact_hessian(stiffness(e), inside, options_.linear_beyond, normal, field_.hessian(middle), curvature);
+    const Mat3 quarter = 0.25 * contact_hessian(stiffness(e), inside, options_.linear_beyond, normal,
+                                                field_.hessian(middle(e, nodes)), curvature);
     hessian.add(e.a, e.a, quarter);
     hessian.add(e.b, e.b, quarter);
     hessian.add(e.b, e.a, quarter);

@@ -35,8 +35,11 @@ class EdgeContact {
     double area;            // mean of its ends', m^2
     std::int32_t hint = 0;  // of the field
     bool kept = false;
+    Vec3 looked_at = Vec3::Zero();  // where the middle was when it was last looked up ...
+    double clear = 0.0;             // ... and so far from there, m, it is not inside
   };
   static constexpr double kFirmer = 4;
+  static Vec3 middle(const Edge& edge, const Points3& nodes);
   // Depth of the middle, with the field's gradient there; 0 or less outside.
   double depth(Edge& edge, const Points3& nodes, Vec3& normal);
   double stiffness(const Edge& edge) const { return kFirmer * options_.stiffness * edge.area; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/sim/edge_contact.h"
 
+#include <utility>
+
 #include "engine/sim/drape_energy.h"
 #include "tests/engine/sim/finite_difference.h"
 #include "tests/support/grid_garment.h"
@@ -33,6 +35,34 @@ TEST(EdgeContact, TakesUpTheEdgeThatAFingerPiercesAndKeepsIt) {
   EXPECT_FALSE(s.contact.look(s.nodes(0.076, 0.052)));
   EXPECT_FALSE(s.contact.look(s.nodes(0.3, 0.3)));
   EXPECT_EQ(s.contact.count(), 1);
+}
+
+// Counts what it is asked.
+struct CountingFinger : CylinderField {
+  using CylinderField::CylinderField;
+  int asked = 0;
+  double evaluate(const Vec3& p, double reach, Vec3& gradient) override {
+    ++asked;
+    return CylinderField::evaluate(p, reach, gradient);
+  }
+};
+
+TEST(EdgeContact, LooksAgainOnlyAtEdgesThatCanHaveComeInside) {
+  const PiercedSheet s;
+  CountingFinger finger(0.008);
+  EdgeContact contact(s.cloth, finger, {});
+  auto asked = [&, before = 0](const Points3& nodes) mutable {
+    contact.look(nodes);
+    return finger.asked - std::exchange(before, finger.asked);
+  };
+  const int all = asked(s.nodes(0.3, 0.3));  // 0.14 m aside
+  ASSERT_GT(all, 30);
+  EXPECT_EQ(asked(s.nodes(0.26, 0.3)), 0);
+  const int some = asked(s.nodes(0.2, 0.2));
+  EXPECT_GT(some, 0);
+  EXPECT_LT(some, all);
+  EXPECT_GT(asked(s.nodes(0.076, 0.052)), 0);
+  EXPECT_EQ(contact.count(), 1);  // as if looked at there at once
 }
 
 TEST(EdgeContact, PushesTheEdgeOutOfTheFinger) {
