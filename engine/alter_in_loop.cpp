@@ -45,8 +45,10 @@ AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& s
   place.ideal = compare_positions(scene.start.nodes, target.drape.drape.nodes).rms;
   place.allowed = allowed_at(place.ideal);
   AlterPatternOptions planned = alter_options;
+  PlanMemory memory;
   while (static_cast<int>(place.plans.size()) < options.max_plans) {
-    AlterPatternResult altered = alter_pattern(pattern, scene.original, scene.target.rest, planned, progress, at_once);
+    AlterPatternResult altered =
+        alter_pattern(pattern, scene.original, scene.target.rest, planned, progress, at_once, memory);
     TriedOn worn = try_on(scene, altered.sewn, edge_length, on_target, drape_options, progress);
     const TriedPlan plan{altered.planned_share,
                          static_cast<int>(altered.ticket.operations.size()),

@@ -17,6 +17,14 @@
 #include "engine/core/units.h"
 
 namespace toile {
+
+struct PlanMemory::Known {
+  std::optional<CoarsePattern> coarse;
+  TearMemory inserting, removing;
+  CutMemory cut;
+  SewMemory sewing;
+};
+
 namespace {
 
 constexpr int kPlanTriangles = 600;  // of the garment: tears are chosen on so many
@@ -155,16 +163,10 @@ double strain_left(const AlterPatternResult& result, const RecutPanels& anew, do
 struct Torn {
   TornPattern inserting, removing;
 };
-// What earlier plans have found out.
-struct PlanMemory {
-  TearMemory inserting, removing;
-  CutMemory cut;
-  SewMemory sewing;
-};
-
 // Tears that are planned with `share` of the allowed stretch.
 Torn tear_both(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest, const CoarsePattern& coarse,
-               const AlterPatternOptions& options, double share, PlanMemory& memory, Progress* progress, bool at_once) {
+               const AlterPatternOptions& options, double share, PlanMemory::Known& memory, Progress* progress,
+               bool at_once) {
   AlterPatternOptions planned = options;
   planned.stretch_limit *= share;
   auto [inserting, removing] = side_by_side(
@@ -197,7 +199,8 @@ bool torn_alike(const TornPattern& a, const TornPattern& b) {
 
 // The alteration that was planned with `share` of the allowed stretch and tears so.
 AlterPatternResult altered(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
-                           const AlterPatternOptions& options, double share, const Torn& torn, PlanMemory& memory) {
+                           const AlterPatternOptions& options, double share, const Torn& torn,
+                           PlanMemory::Known& memory) {
   const auto& [inserting, removing] = torn;
   AlterPatternResult result;
   result.planned_share = share;
@@ -245,16 +248,26 @@ std::size_t faults_of(const AlterPatternResult& result) {
          (seam_mismatch(result.sewn) > kMostMismatch);
 }
 
+PlanMemory::PlanMemory() : known_(std::make_unique<Known>()) {}
+PlanMemory::~PlanMemory() = default;
+
 AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
                                  const AlterPatternOptions& options, Progress* progress, bool at_once) {
-  assert(target_rest.rows() == mesh.vertex_count() && pattern.panels.size() == mesh.panels.size());
-  const CoarsePattern coarse = coarsen(pattern, mesh, target_rest, kPlanTriangles);
   PlanMemory memory;
+  return alter_pattern(pattern, mesh, target_rest, options, progress, at_once, memory);
+}
+
+AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
+                                 const AlterPatternOptions& options, Progress* progress, bool at_once,
+                                 PlanMemory& memory) {
+  assert(target_rest.rows() == mesh.vertex_count() && pattern.panels.size() == mesh.panels.size());
+  PlanMemory::Known& known = memory.known();
+  if (!known.coarse) known.coarse = coarsen(pattern, mesh, target_rest, kPlanTriangles);
   const auto tear = [&](double share) {
-    return tear_both(pattern, mesh, target_rest, coarse, options, share, memory, progress, at_once);
+    return tear_both(pattern, mesh, target_rest, *known.coarse, options, share, known, progress, at_once);
   };
   const auto with = [&](double share, const Torn& torn) {
-    return altered(pattern, mesh, target_rest, options, share, torn, memory);
+    return altered(pattern, mesh, target_rest, options, share, torn, known);
   };
   std::vector<Torn> tried;
   tried.push_back(tear(options.planned_share));
@@ -263,10 +276,10 @@ AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh
   for (double share = kStricter * options.planned_share; share >= kStrictest && faults_of(result) > 0;
        share *= kStricter) {
     Torn torn = tear(share);
-    const bool known = std::any_of(tried.begin(), tried.end(), [&](const Torn& other) {
+    const bool again = std::any_of(tried.begin(), tried.end(), [&](const Torn& other) {
       return torn_alike(other.inserting, torn.inserting) && torn_alike(other.removing, torn.removing);
     });
-    if (known) continue;
+    if (again) continue;
     AlterPatternResult strict = with(share, torn);
     tried.push_back(std::move(torn));
     if (faults_of(strict) < faults_of(result) && strict.ticket.operations.size() <= result.ticket.operations.size())

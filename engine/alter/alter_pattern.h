@@ -9,6 +9,8 @@
 // Source: [Eggler2024, Sec. 6]; method.md section 5.  Lengths in metres.
 #pragma once
 
+#include <memory>
+
 #include "engine/alter/recut.h"
 #include "engine/alter/sewn_pattern.h"
 #include "engine/alter/tear_pattern.h"
@@ -68,8 +70,29 @@ struct AlterPatternResult {
   std::vector<std::string> flags;  // panels where the stretch limit was not reached, with the reason
 };
 
+// What plans for one garment, target and kind of alteration have found out. Those with another share of the allowed
+// stretch look it up: they come out the same.
+class PlanMemory {
+ public:
+  PlanMemory();
+  ~PlanMemory();
+  PlanMemory(const PlanMemory&) = delete;
+  PlanMemory& operator=(const PlanMemory&) = delete;
+
+  struct Known;
+  Known& known() { return *known_; }
+
+ private:
+  std::unique_ptr<Known> known_;
+};
+
 // `target_rest`: #V x 2, the target pattern's flat positions of the mesh's vertices. Throws AlterationFailed,
-// Cancelled. `at_once`: insertions and removals are looked for by a thread each; `progress` hears from both.
+// Cancelled. `at_once`: insertions and removals are looked for by a thread each; `progress` hears from both. `memory`:
+// of plans that differ from this one in `planned_share` alone.
+AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
+                                 const AlterPatternOptions& options, Progress* progress, bool at_once,
+                                 PlanMemory& memory);
+// Without any memory of other plans.
 AlterPatternResult alter_pattern(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest,
                                  const AlterPatternOptions& options = {}, Progress* progress = nullptr,
                                  bool at_once = false);
