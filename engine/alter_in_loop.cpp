@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kFiner = 1.5;  // times the triangles a plan is tried on with: from there on with that many
 const double kUsualStretch = AlterPatternOptions().stretch_limit;
+constexpr double kMeshes[] = {0.95, 1.0, 1.05};  // times the edge length, that the target pattern is meshed with
 constexpr double kStricter = 0.7;   // of the share before or of the strain that was left, whichever is less
 constexpr double kStrictest = 0.1;  // of the allowed stretch: cloth that keeps less is not what is off its place
 
@@ -23,13 +24,21 @@ std::tuple<int, int, double> rank(const PlacedPlans& place, const TriedPlan& pla
   return {plan.faults + (place.in_place(plan) ? 0 : 1), plan.operations, plan.position};
 }
 
+}  // namespace
+
 std::optional<double> position_meshed_anew(const AlterationScene& scene, const Pattern& target, double edge_length,
                                            DrapeSeries& on_target, const DrapeOptions& options, Progress* progress) {
-  const TriedOn worn = try_on(scene, uncut(target, scene.target), edge_length, on_target, options, progress);
-  return worn.problem.empty() ? std::optional(worn.position.rms) : std::nullopt;
+  const SewnPattern whole = uncut(target, scene.target);
+  double sum = 0.0;
+  int worn = 0;
+  for (const double coarser : kMeshes) {
+    const TriedOn tried = try_on(scene, whole, coarser * edge_length, on_target, options, progress);
+    if (!tried.problem.empty()) continue;
+    sum += tried.position.rms;
+    ++worn;
+  }
+  return worn > 0 ? std::optional(sum / worn) : std::nullopt;
 }
-
-}  // namespace
 
 AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& scene, const DerivedPattern& target,
                                 DrapeSeries& on_target, const AlterPatternOptions& alter_options,

@@ -6,9 +6,9 @@
 // bring cloth nearer to its place, so that every plan is tried on. Place: where the body map carries the reference
 // drape to; a garment lies in it that rests little farther off than the target pattern itself. Loose cloth rests
 // elsewhere on other triangles, and the altered garment has others: where it is farther off than the target pattern on
-// the mesh it was derived on, that is tried on, too, meshed as the altered one. Of the plans the one with the fewest
-// faults is kept, of those the one with the fewest operations, of those the nearest. Source: [Eggler2024, Sec. 8]; the
-// order of the plans was measured.  SI units.
+// the mesh it was derived on, that is tried on, too, on three meshes as fine as the altered one's. Of the plans the one
+// with the fewest faults is kept, of those the one with the fewest operations, of those the nearest. Source:
+// [Eggler2024, Sec. 8]; the order of the plans was measured.  SI units.
 #pragma once
 
 #include "engine/alter/alter_pattern.h"
@@ -41,7 +41,7 @@ struct TriedPlan {
 
 struct PlacedPlans {
   double ideal = 0.0;                 // m, rms distance of the target pattern's drape from its place
-  std::optional<double> meshed_anew;  // that of the target pattern meshed as the plans are; none: not looked at
+  std::optional<double> meshed_anew;  // the same on meshes as the plans', in the mean; none: not looked at
   double allowed = 0.0;               // m, of an altered garment
   std::vector<TriedPlan> plans;       // in order
   int kept = 0;                       // which of them
@@ -55,6 +55,13 @@ struct AlterInLoopResult {
   TriedOn worn;                // how it was tried on with a mesh as fine as the original's; or empty
   PlacedPlans place;
 };
+
+// Where the target pattern rests off its place, which is the start of `scene`, if its mesh is not the one it was
+// derived on: m rms, the mean over three meshes of about `edge_length` (m), for on one it is chance where loose cloth
+// rests. None if it cannot be draped.
+std::optional<double> position_meshed_anew(const AlterationScene& scene, const Pattern& target, double edge_length,
+                                           DrapeSeries& on_target, const DrapeOptions& options,
+                                           Progress* progress = nullptr);
 
 // `scene`: its start is the place. `target`: the pattern of the scene's target mesh, draped. `on_target`: on the target
 // body. Throws what

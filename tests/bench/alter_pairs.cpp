@@ -99,8 +99,9 @@ AlterFit fit_of(const DerivedGarment& derived, const AlterPatternResult& result,
   if (!fit.problem.empty()) return fit;
   fit.stretch_after = compare_fits(after.mesh, after.reference, after.fit).whole.rms_stretch;
   fit.position_after = drape_at(result.sewn, derived.transported.drape).position.rms;
-  const SewnPattern target = uncut(derived.derived.drawn.pattern, derived.derived.mesh);
-  fit.position_anew = drape_at(target, derived.transported.drape).position.rms;
+  fit.position_anew = position_meshed_anew(scene_of(derived, derived.transported.drape), derived.derived.drawn.pattern,
+                                           mesh.target_edge_length, on_target, drape_options_of(options))
+                          .value_or(0.0);
   return fit;
 }
 

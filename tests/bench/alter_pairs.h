@@ -37,7 +37,7 @@ struct AlterFit {
   std::string problem;                                                    // why it could not be draped, or empty
   double stretch_before = 0.0, stretch_ideal = 0.0, stretch_after = 0.0;  // rms error
   // m, rms from where the reference's drape is carried to on the target body: of the target pattern on the mesh it was
-  // derived on, meshed anew as the altered garment is, of the altered garment
+  // derived on, in the mean on three others as fine, of the altered garment
   double position_ideal = 0.0, position_anew = 0.0, position_after = 0.0;
 };
 AlterFit fit_of(const DerivedGarment& derived, const AlterPatternResult& result, const AlterOptions& options);
