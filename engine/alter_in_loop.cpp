@@ -52,7 +52,8 @@ AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& s
   AlterInLoopResult result;
   PlacedPlans& place = result.place;
   place.ideal = compare_positions(scene.start.nodes, target.drape.drape.nodes).rms;
-  place.allowed = allowed_at(place.ideal);
+  const double near = allowed_at(place.ideal);
+  place.allowed = near;
   AlterPatternOptions planned = alter_options;
   PlanMemory memory;
   while (static_cast<int>(place.plans.size()) < options.max_plans) {
@@ -77,7 +78,7 @@ AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& s
       result.altered = std::move(altered);
       result.worn = edge_length == scene.original.target_edge_length ? std::move(worn) : TriedOn{};
     }
-    if (place.in_place(plan) || planned.planned_share < kStrictest) break;
+    if ((place.in_place(plan) && plan.position <= near) || planned.planned_share < kStrictest) break;
   }
   return result;
 }
