@@ -54,6 +54,7 @@ AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& s
   place.ideal = compare_positions(scene.start.nodes, target.drape.drape.nodes).rms;
   const double near = allowed_at(place.ideal);
   place.allowed = near;
+  const bool rests = target.drape.quality.rest != Rest::NotAtRest;
   AlterPatternOptions planned = alter_options;
   PlanMemory memory;
   while (static_cast<int>(place.plans.size()) < options.max_plans) {
@@ -66,7 +67,7 @@ AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& s
                          worn.problem,
                          worn.mesh.triangle_count(),
                          worn.position.rms};
-    if (place.plans.empty() && !place.in_place(plan)) {
+    if (rests && place.plans.empty() && !place.in_place(plan)) {
       place.meshed_anew =
           position_meshed_anew(scene, target.drawn.pattern, edge_length, on_target, drape_options, progress);
       place.allowed = std::max(place.allowed, allowed_at(place.meshed_anew.value_or(0.0)));
@@ -78,7 +79,7 @@ AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& s
       result.altered = std::move(altered);
       result.worn = edge_length == scene.original.target_edge_length ? std::move(worn) : TriedOn{};
     }
-    if ((place.in_place(plan) && plan.position <= near) || planned.planned_share < kStrictest) break;
+    if (!rests || (place.in_place(plan) && plan.position <= near) || planned.planned_share < kStrictest) break;
   }
   return result;
 }

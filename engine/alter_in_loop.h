@@ -7,9 +7,10 @@
 // drape to; a garment lies in it that rests little farther off than the target pattern itself. Loose cloth rests
 // elsewhere on other triangles, and the altered garment has others: where it is farther off than the target pattern on
 // the mesh it was derived on, that is tried on, too, on three meshes as fine as the altered one's; what lies no farther
-// off there lies in its place, but whether as few operations bring it nearer is looked at all the same. Of the plans
-// the one with the fewest faults is kept, of those the one with the fewest operations, of those the nearest. Source:
-// [Eggler2024, Sec. 8]; the order of the plans was measured.  SI units.
+// off there lies in its place, but whether as few operations bring it nearer is looked at all the same. Where the
+// target pattern itself comes to no rest, one plan is all. Of the plans the one with the fewest faults is kept, of
+// those the one with the fewest operations, of those the nearest. Source: [Eggler2024, Sec. 8]; the order of the plans
+// was measured.  SI units.
 #pragma once
 
 #include "engine/alter/alter_pattern.h"

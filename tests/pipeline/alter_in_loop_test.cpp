@@ -95,6 +95,15 @@ TEST(AlterInLoop, ClothThatKeepsHardlyAnyStrainIsNotPlannedAgain) {
   EXPECT_EQ(result.place.plans.size(), 1u);
 }
 
+TEST(AlterInLoop, ATargetPatternThatComesToNoRestTellsNoPlace) {
+  Curtain curtain(kLonger);
+  curtain.target.drape.quality.rest = Rest::NotAtRest;
+  const PlacedPlans place = curtain.alter(3).place;
+  ASSERT_GT(place.kept_plan().position, place.allowed);
+  EXPECT_FALSE(place.meshed_anew.has_value());
+  EXPECT_EQ(place.plans.size(), 1u);
+}
+
 TEST(AlterInLoop, TheTargetPatternMeshedAnewIsLookedAtOnlyWhereThePlanIsOffWithoutIt) {
   EXPECT_FALSE(Curtain(1.02).alter(3).place.meshed_anew.has_value());
   const Curtain curtain(kLonger);
