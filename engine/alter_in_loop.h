@@ -66,8 +66,7 @@ std::optional<double> position_meshed_anew(const AlterationScene& scene, const P
                                            Progress* progress = nullptr);
 
 // `scene`: its start is the place. `target`: the pattern of the scene's target mesh, draped. `on_target`: on the target
-// body. Throws what
-// alter_pattern and drape_from do. `at_once`: see alter_pattern.
+// body. Throws what alter_pattern and drape_from do. `at_once`: see alter_pattern.
 AlterInLoopResult alter_in_loop(const Pattern& pattern, const AlterationScene& scene, const DerivedPattern& target,
                                 DrapeSeries& on_target, const AlterPatternOptions& alter_options,
                                 const DrapeOptions& drape_options, const AlterInLoopOptions& options = {},

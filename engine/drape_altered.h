@@ -4,8 +4,7 @@
 // The sewn pattern is meshed as any other; every vertex starts where a drape of the target pattern has its place in the
 // wanted panel. Where the alteration was tried on with the same mesh, that is the drape. Kept cloth is compared with
 // the same place of the original cloth on the reference body, an insertion with the cloth that the target pattern has
-// there.
-// Source: [Eggler2024, Sec. 8, Fig. 16].  SI units.
+// there.   Source: [Eggler2024, Sec. 8, Fig. 16].  SI units.
 #pragma once
 
 #include "engine/alter/sewn_pattern.h"

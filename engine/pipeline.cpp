@@ -100,7 +100,7 @@ DerivedOnBody derive_on_body(const GarmentInput& garment, const BodyInput& refer
             .value;
       },
       [&](StageRunner& part) {
-        return part.run("derive_pattern", 28, key_of(transported.key, derive_options, loop_options, plane), [&] {
+        return part.run("derive_pattern", 29, key_of(transported.key, derive_options, loop_options, plane), [&] {
           const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
           return derive_in_loop(pattern, mesh, fit, *on_target, transported.value.drape, mirrors, derive_options,
                                 drape_options, loop_options, part.progress());

@@ -163,6 +163,7 @@ double strain_left(const AlterPatternResult& result, const RecutPanels& anew, do
 struct Torn {
   TornPattern inserting, removing;
 };
+
 // Tears that are planned with `share` of the allowed stretch.
 Torn tear_both(const Pattern& pattern, const PatternMesh& mesh, const Points2& target_rest, const CoarsePattern& coarse,
                const AlterPatternOptions& options, double share, PlanMemory::Known& memory, Progress* progress,

@@ -95,11 +95,12 @@ class EdgeFitter {
   }
 
   // A panel that grew from its first corner on would be placed aside of the body, and be no one's mirror image there.
+  // Its height is left alone: trousers of a child, kept about the middle of an adult's, would be taken for a shirt.
   static void keep_in_place(const Panel& before, Panel& after) {
     Vec2 way = Vec2::Zero();
     for (std::size_t c = 0; c < before.corners.size(); ++c) way += after.corners[c] - before.corners[c];
-    way /= static_cast<double>(before.corners.size());
-    after.translation -= after.rotation.leftCols<2>() * way;
+    const Vec3 placed = after.rotation.leftCols<2>() * way / static_cast<double>(before.corners.size());
+    after.translation -= Vec3(placed.x(), 0.0, placed.z());
   }
 
   const SideRule& rule(int p, int e) const { return rules_[static_cast<std::size_t>(p)][static_cast<std::size_t>(e)]; }

@@ -5,8 +5,8 @@
 // vertices along it went. Hems, darts, fold lines and edges along the grain stay straight when they were (or as
 // labelled); another edge that its type cannot follow within the tolerance becomes a cubic Bézier, or at worst a
 // polyline. Then the least change of corners and curves restores the length ratio of sewn sides. Mirror images are
-// drawn as mirror images. Notches, grainlines and keep-out regions follow; the middle of a panel's corners stays where
-// it is placed around the body.  Lengths in metres.
+// drawn as mirror images. Notches, grainlines and keep-out regions follow; the middle of a panel's corners stays over
+// the place on the floor where it is placed.  Lengths in metres.
 #pragma once
 
 #include "engine/stages/garment_mirrors.h"
