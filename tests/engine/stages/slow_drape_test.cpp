@@ -157,18 +157,15 @@ TEST(SlowDrape, FinestMeshKeepsTheFoldsOfThoseBetween) {
   EXPECT_LT(std::sqrt((there.nodes - carried.nodes).rowwise().squaredNorm().mean()), 0.0012);
 }
 
-// Legs far too long, in folds at the ankles: one half catches there, the whole does not.
 TEST(SlowDrape, WholeGarmentMovesWhereAHalfDoesNotComeToRest) {
   TOILE_REQUIRE_SHARED_DATA();
-  test::Dressing d = test::dress("leggings_tight", 10000, "mh_female_heavy_short");
-  d.options.coarse_triangles = 0;
-  const DrapeResult result = drape(d.pattern, d.mesh, d.body, d.options, nullptr);
-  expect_worn(result);
-  EXPECT_NE(result.quality.rest, Rest::NotAtRest);
-  EXPECT_EQ(result.diagnostics.moved_nodes, d.mesh.node_count);
-  const test::Dressing other = test::dress("leggings_tight", 4300, "mh_female_average");
-  EXPECT_LT(drape(other.pattern, other.mesh, other.body, other.options, nullptr).diagnostics.moved_nodes,
-            0.6 * other.mesh.node_count);
+  test::Dressing d = test::dress("leggings_tight", 4300, "mh_female_average");
+  const DrapeResult half = drape(d.pattern, d.mesh, d.body, d.options, nullptr);
+  EXPECT_NE(half.quality.rest, Rest::NotAtRest);
+  EXPECT_LT(half.diagnostics.moved_nodes, 0.6 * d.mesh.node_count);
+  d.options.iterations = half.diagnostics.iterations / 4;
+  const DrapeResult whole = drape(d.pattern, d.mesh, d.body, d.options, nullptr);
+  EXPECT_EQ(whole.diagnostics.moved_nodes, d.mesh.node_count);
 }
 
 TEST(SlowDrape, SameInputsGiveTheSameBytes) {
