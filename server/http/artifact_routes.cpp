@@ -17,7 +17,7 @@ bool names_tag(const std::string& header, const std::string& tag) {
   return header == "*" || header.find(tag) != std::string::npos;
 }
 
-Response list(Service& service, const Request& request) {
+Response list_artifacts(Service& service, const Request& request) {
   require_job(service, request);
   const std::string& id = request.path_value("id");
   nlohmann::ordered_json items = nlohmann::ordered_json::array();
@@ -26,7 +26,7 @@ Response list(Service& service, const Request& request) {
   return json_response(200, list_document(std::move(items), ""));
 }
 
-Response show(Service& service, const Request& request) {
+Response show_artifact(Service& service, const Request& request) {
   require_job(service, request);
   const auto artifact = service.store.jobs.artifact(request.path_value("id"), request.path_value("name"));
   if (!artifact) throw Problem{404, "not_found", "the job has no artifact of this name (yet)", {}, {}};
@@ -55,8 +55,9 @@ Response show(Service& service, const Request& request) {
 }  // namespace
 
 void add_artifact_routes(Service& service) {
-  service.router.add({"GET", "/v1/jobs/{id}/artifacts", [&service](Request& r) { return list(service, r); }});
-  service.router.add({"GET", "/v1/jobs/{id}/artifacts/{name}", [&service](Request& r) { return show(service, r); }});
+  service.router.add({"GET", "/v1/jobs/{id}/artifacts", [&service](Request& r) { return list_artifacts(service, r); }});
+  service.router.add(
+      {"GET", "/v1/jobs/{id}/artifacts/{name}", [&service](Request& r) { return show_artifact(service, r); }});
 }
 
 }  // namespace toile::http

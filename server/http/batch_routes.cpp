@@ -172,7 +172,7 @@ Response whole_batch(const Service& service, int status, const std::string& tena
   return json_response(status, text_of(document)).with("Location", document["links"]["self"]);
 }
 
-Response create(Service& service, Request& request) {
+Response create_batch(Service& service, Request& request) {
   refuse_when_disk_is_low(service);
   std::string raw;
   const json document = read_json(request, service.options.max_document_bytes, &raw);
@@ -190,7 +190,7 @@ Response create(Service& service, Request& request) {
   return whole_batch(service, 202, request.tenant, id).with("Retry-After", "5");
 }
 
-Response list(Service& service, const Request& request) {
+Response list_batches(Service& service, const Request& request) {
   const Page page = page_of(request);
   const auto batches = list_batches(service.store.database, request.tenant, page.before, page.limit);
   ordered_json items = ordered_json::array();
@@ -202,8 +202,8 @@ Response list(Service& service, const Request& request) {
 }  // namespace
 
 void add_batch_routes(Service& service) {
-  service.router.add({"POST", "/v1/batches", [&service](Request& r) { return create(service, r); }});
-  service.router.add({"GET", "/v1/batches", [&service](Request& r) { return list(service, r); }});
+  service.router.add({"POST", "/v1/batches", [&service](Request& r) { return create_batch(service, r); }});
+  service.router.add({"GET", "/v1/batches", [&service](Request& r) { return list_batches(service, r); }});
   service.router.add({"GET", "/v1/batches/{id}",
                       [&service](Request& r) { return whole_batch(service, 200, r.tenant, r.path_value("id")); }});
 }

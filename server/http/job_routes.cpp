@@ -28,7 +28,7 @@ Response accepted(Service& service, const Request& request, const std::string& i
   return response;
 }
 
-Response create(Service& service, Request& request) {
+Response create_job(Service& service, Request& request) {
   refuse_when_disk_is_low(service);
   std::string raw;
   const nlohmann::json document = read_json(request, service.options.max_document_bytes, &raw);
@@ -46,7 +46,7 @@ Response create(Service& service, Request& request) {
   return accepted(service, request, id);
 }
 
-Response show(Service& service, const Request& request) {
+Response show_job(Service& service, const Request& request) {
   const auto job = service.store.jobs.find(request.tenant, request.path_value("id"));
   if (!job) throw not_found("job");
   const std::string tag = quoted_tag(std::to_string(job->version));
@@ -60,7 +60,7 @@ Response show(Service& service, const Request& request) {
   return response;
 }
 
-Response list(Service& service, const Request& request) {
+Response list_jobs(Service& service, const Request& request) {
   const Page page = page_of(request, {"label", "state"});
   JobFilter filter;
   if (const auto state = request.parameter("state")) filter.state = state_of_name(*state);
@@ -86,9 +86,9 @@ Response cancel(Service& service, const Request& request) {
 }  // namespace
 
 void add_job_routes(Service& service) {
-  service.router.add({"POST", "/v1/jobs", [&service](Request& r) { return create(service, r); }});
-  service.router.add({"GET", "/v1/jobs", [&service](Request& r) { return list(service, r); }});
-  service.router.add({"GET", "/v1/jobs/{id}", [&service](Request& r) { return show(service, r); }});
+  service.router.add({"POST", "/v1/jobs", [&service](Request& r) { return create_job(service, r); }});
+  service.router.add({"GET", "/v1/jobs", [&service](Request& r) { return list_jobs(service, r); }});
+  service.router.add({"GET", "/v1/jobs/{id}", [&service](Request& r) { return show_job(service, r); }});
   service.router.add({"DELETE", "/v1/jobs/{id}", [&service](Request& r) { return cancel(service, r); }});
 }
 

@@ -16,7 +16,7 @@ namespace toile::http {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLookEvery{200};
+constexpr std::chrono::milliseconds kSendEvery{200};
 constexpr std::int64_t kHoldMs = 60000;  // longer than a delivery can take
 constexpr std::size_t kMinKeyBytes = 16;
 
@@ -164,7 +164,7 @@ void WebhookSender::run() {
   for (;;) {
     {
       std::unique_lock lock(lock_);
-      stop_.wait_for(lock, kLookEvery, [&] { return stopping_; });
+      stop_.wait_for(lock, kSendEvery, [&] { return stopping_; });
       if (stopping_) return;
     }
     try {

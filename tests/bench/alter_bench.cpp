@@ -9,33 +9,30 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
-#include "engine/render/png.h"
 #include "engine/stage_options.h"
 #include "tests/bench/alter_pairs.h"
 #include "tests/bench/derive.h"
+#include "tests/bench/drape_sheets.h"
 #include "tests/support/shared_data.h"
 
 namespace toile::bench {
 namespace {
 
-constexpr double kPercent = 100.0, kMm = 1e3;
 constexpr int kSheetColumns = 5, kSheetWidth = 620;
 // Gates of the acceptance lines.
 constexpr double kShareOfIdeal = 1.25, kFartherOff = 2e-3, kBalance = 0.01, kAlike = 5e-4, kFewFlags = 0.1,
                  kNarrow = 0.95;  // widths are measured to a few per cent
 
-struct Request {
+struct AlterRequest {
   std::vector<AlterPair> pairs;
   std::string stages, pictures;
   bool greedy = false, drape = false, sentences = false, growth = false;
   AlterOptions job;
 };
 
-Request parse(const std::vector<std::string>& words) {
-  Request request;
+AlterRequest alter_request(const std::vector<std::string>& words) {
+  AlterRequest request;
   request.job.triangles = 4000;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string& word = words[i];
@@ -79,13 +76,6 @@ struct Row {
   std::optional<AlterFit> fit;
 };
 
-void write(const std::string& folder, const std::string& name, const Image& image) {
-  std::filesystem::create_directories(folder);
-  const Bytes png = write_png(image);
-  std::ofstream(folder + "/" + name + ".png", std::ios::binary)
-      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-}
-
 void print_sentences(const AlterPair& pair, const AlterPatternResult& result) {
   std::printf("%s for %s\n", pair.garment.c_str(), pair.body.c_str());
   for (const TicketOperation& operation : result.ticket.operations) std::printf("  %s\n", operation.sentence.c_str());
@@ -93,7 +83,7 @@ void print_sentences(const AlterPair& pair, const AlterPatternResult& result) {
   for (const std::string& flag : result.sewn.flags) std::printf("  flag: %s\n", flag.c_str());
 }
 
-Row alter_one(const Request& request, const AlterPair& pair, const AlterOptions& job, StageCache* stages,
+Row alter_one(const AlterRequest& request, const AlterPair& pair, const AlterOptions& job, StageCache* stages,
               std::vector<Image>& sheet) {
   const DerivedGarment derived = derive_pair(pair.garment, pair.body, job, stages);
   double start = cpu_seconds();
@@ -115,7 +105,7 @@ Row alter_one(const Request& request, const AlterPair& pair, const AlterOptions&
   if (row.fit && !row.fit->problem.empty())
     std::printf("%s for %s: %s\n", pair.garment.c_str(), pair.body.c_str(), row.fit->problem.c_str());
   if (!request.pictures.empty()) {
-    write(request.pictures, pair.garment + "_" + pair.body, picture_of(pair, result, 1400));
+    write_picture(request.pictures, pair.garment + "_" + pair.body, picture_of(pair, result, 1400));
     sheet.push_back(picture_of(pair, result, kSheetWidth));
   }
   if (request.sentences) print_sentences(pair, result);
@@ -203,7 +193,7 @@ int bench_alter(const Arguments& arguments) {
     std::fprintf(stderr, "toile-bench alter needs ../shared/data\n");
     return 2;
   }
-  const Request request = parse(arguments.words);
+  const AlterRequest request = alter_request(arguments.words);
   const auto stages = stage_store(request.stages);
   Table table({"garment",      "body",      "operations",
                "tears",        "greedy",    "its p95 %",
@@ -236,7 +226,7 @@ int bench_alter(const Arguments& arguments) {
                   growth_exponent(sizes, times));
   }
   table.print(arguments.csv);
-  if (!sheet.empty()) write(request.pictures, "contact_sheet", tile(sheet, kSheetColumns));
+  if (!sheet.empty()) write_picture(request.pictures, "contact_sheet", tile(sheet, kSheetColumns));
   return summarise(rows, request.job);
 }
 

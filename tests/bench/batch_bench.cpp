@@ -5,11 +5,10 @@
 // threads [GARMENT] [--bodies NAME] [--triangles N]: one job with two threads, and two and four jobs at once, against
 // one job with one. Both tell whether the files are the same to the last byte.
 #include <cstdio>
-#include <map>
-#include <mutex>
 #include <thread>
 
 #include "engine/core/error.h"
+#include "tests/bench/derive.h"
 #include "tests/bench/proof.h"
 #include "tests/bench/random_body.h"
 #include "tests/bench/whole_job.h"
@@ -19,38 +18,21 @@
 namespace toile::bench {
 namespace {
 
-struct Request {
+struct BatchRequest {
   std::string garment = "leggings_tight";
   std::vector<std::string> bodies = {"ggg_mean_female", "ggg_small_female", "ggg_male_extra", "ggg_large_male"};
   int triangles = 10000;
   int count = 0;  // of random bodies; 0: those that are named
 };
 
-Request parse(Words words) {
-  Request request;
+BatchRequest batch_request(Words words) {
+  BatchRequest request;
   request.triangles = words.integer("--triangles").value_or(request.triangles);
   request.count = words.integer("--count").value_or(request.count);
   request.bodies = words.list("--bodies").value_or(request.bodies);
   if (!words.rest().empty()) request.garment = words.rest().back();
   return request;
 }
-
-class MemoryStages : public StageCache {
- public:
-  std::optional<Bytes> get(const std::string& key) override {
-    const std::lock_guard lock(mutex_);
-    const auto found = kept_.find(key);
-    return found == kept_.end() ? std::nullopt : std::optional(found->second);
-  }
-  void put(const std::string& key, const Bytes& value) override {
-    const std::lock_guard lock(mutex_);
-    kept_.emplace(key, value);
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, Bytes> kept_;
-};
 
 bool same_files(const std::vector<OutputFile>& a, const std::vector<OutputFile>& b) {
   if (a.size() != b.size()) return false;
@@ -59,11 +41,11 @@ bool same_files(const std::vector<OutputFile>& a, const std::vector<OutputFile>&
   return true;
 }
 
-test::Scene scene_of(const Request& request, const std::string& body) {
+test::Scene batch_scene(const BatchRequest& request, const std::string& body) {
   return test::named_scene(request.garment + ":" + body);
 }
 
-AlterOptions options_of(const Request& request) {
+AlterOptions batch_options(const BatchRequest& request) {
   AlterOptions options;
   options.triangles = request.triangles;
   options.outputs = {"altered_pattern.svg", "ticket.json", "target_pattern.json"};
@@ -78,7 +60,7 @@ class Batch {
 
   // The first body pays for the shared stages and does not count as a further one.
   void add(const test::Scene& scene, bool also_alone) try {
-    const JobRun shared = run_job(scene, options_, &stages_);
+    const JobRun shared = run_job(scene, options_, stages_.get());
     int reused = 0;
     for (const StageCost& stage : shared.stages) reused += stage.reused;
     std::vector<std::string> row = {scene.target.name, "-", fixed(shared.cpu_s, 2), "-", std::to_string(reused), "-"};
@@ -112,7 +94,7 @@ class Batch {
   }
 
   AlterOptions options_;
-  MemoryStages stages_;
+  std::unique_ptr<StageCache> stages_ = stage_store({});
   Table table_{{"body", "alone CPU s", "in the batch CPU s", "share %", "stages reused", "same bytes"}};
   std::vector<double> further_, compared_, alone_;  // CPU s
   bool all_same_ = true;
@@ -121,13 +103,13 @@ class Batch {
 }  // namespace
 
 int bench_batch(const Arguments& arguments) {
-  const Request request = parse(Words(arguments.words));
-  Batch batch(options_of(request));
+  const BatchRequest request = batch_request(Words(arguments.words));
+  Batch batch(batch_options(request));
   if (request.count == 0) {
-    for (const std::string& body : request.bodies) batch.add(scene_of(request, body), true);
+    for (const std::string& body : request.bodies) batch.add(batch_scene(request, body), true);
   } else {
     const std::vector<TriangleMesh> family = shared_family();
-    test::Scene scene = scene_of(request, request.bodies.front());
+    test::Scene scene = batch_scene(request, request.bodies.front());
     for (int number = 0; number < request.count; ++number) {
       scene.target = random_body(number, family);
       batch.add(scene, number % kAlone == 1);
@@ -137,9 +119,9 @@ int bench_batch(const Arguments& arguments) {
 }
 
 int bench_threads(const Arguments& arguments) {
-  Request request = parse(Words(arguments.words));
-  const AlterOptions options = options_of(request);
-  const test::Scene scene = scene_of(request, request.bodies.front());
+  BatchRequest request = batch_request(Words(arguments.words));
+  const AlterOptions options = batch_options(request);
+  const test::Scene scene = batch_scene(request, request.bodies.front());
   const JobRun alone = run_job(scene, options);
   Table table({"jobs at once", "wall s", "CPU s a job", "jobs a wall second over one", "same bytes"});
   table.add({"1", fixed(alone.wall_s, 2), fixed(alone.cpu_s, 2), "1.00", "yes"});

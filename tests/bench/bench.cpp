@@ -52,6 +52,12 @@ Timing time_cpu(int repeats, const std::function<void()>& work) {
   return {times[times.size() / 2], times.front(), times.back()};
 }
 
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
 double growth_exponent(const std::vector<double>& sizes, const std::vector<double>& times) {
   const auto n = static_cast<double>(sizes.size());
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
@@ -89,6 +95,12 @@ std::string fixed(double value, int digits) {
   char text[64];
   std::snprintf(text, sizeof text, "%.*f", digits, value);
   return text;
+}
+std::string mm(double metres, int digits) {
+  return fixed(kMm * metres, digits);
+}
+std::string percent(double share, int digits) {
+  return fixed(kPercent * share, digits);
 }
 
 }  // namespace toile::bench

@@ -18,6 +18,7 @@ struct Timing {
   double median = 0, least = 0, most = 0;  // CPU seconds
 };
 Timing time_cpu(int repeats, const std::function<void()>& work);
+double median(std::vector<double> values);  // the upper one of an even number; 0 of none
 
 // Slope of log(time) over log(size): the growth exponent.
 double growth_exponent(const std::vector<double>& sizes, const std::vector<double>& times);
@@ -34,6 +35,10 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 std::string fixed(double value, int digits);
+
+inline constexpr double kMm = 1e3, kPercent = 100.0;
+std::string mm(double metres, int digits = 1);
+std::string percent(double share, int digits = 1);
 
 struct Arguments {
   std::vector<std::string> words;  // after the benchmark's name

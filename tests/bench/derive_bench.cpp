@@ -15,7 +15,6 @@
 namespace toile::bench {
 namespace {
 
-constexpr double kMm = 1e3, kPercent = 100.0;
 // Gates of the pair table: what the median must reach, and how much worse a single pair may get.
 constexpr double kLeastFall = 0.75, kGoodStretch = 0.007, kGoodPosition = 8e-3;
 constexpr double kWorseStretch = 0.001, kWorsePosition = 1e-3, kSeamGate = 0.5e-3;
@@ -30,14 +29,14 @@ std::string worst_edge(const DerivedGarment& r) {
   return "";
 }
 
-struct Outcome {
+struct PairOutcome {
   double stretch_before = 0, stretch_after = 0, position_before = 0, position_after = 0;
   double seam = 0, deviation = 0;
   int flips = 0, crossing_panels = 0;
 };
 
-Outcome outcome_of(const DerivedGarment& r) {
-  Outcome o;
+PairOutcome pair_outcome(const DerivedGarment& r) {
+  PairOutcome o;
   const PatternMesh& mesh = r.reference.mesh;
   o.stretch_before = compare_fits(mesh, r.reference.fit, r.fit_before).whole.rms_stretch;
   o.stretch_after = compare_fits(mesh, r.reference.fit, r.derived.fit).whole.rms_stretch;
@@ -56,17 +55,11 @@ void draw(const DeriveRequest& request, const std::string& name, const DerivedGa
   write_changes(request.pictures, name, r.reference.pattern, r.derived.drawn.pattern);
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 // "stretch error: median falls by 84 % to 0.6 %" and whether that is enough.
-bool judge(const std::vector<Outcome>& all, const char* what, double Outcome::*before, double Outcome::*after,
-           double good, double scale, const char* unit) {
+bool judge(const std::vector<PairOutcome>& all, const char* what, double PairOutcome::*before,
+           double PairOutcome::*after, double good, double scale, const char* unit) {
   std::vector<double> falls, reached;
-  for (const Outcome& o : all) {
+  for (const PairOutcome& o : all) {
     falls.push_back(o.*before > 0 ? 1.0 - o.*after / (o.*before) : 0.0);
     reached.push_back(o.*after);
   }
@@ -81,20 +74,21 @@ bool verdict(const char* what, int count) {
   return count == 0;
 }
 
-int summarise(const std::vector<Outcome>& all, int failures) {
+int summarise(const std::vector<PairOutcome>& all, int failures) {
   const auto count = [&](auto&& bad) { return static_cast<int>(std::count_if(all.begin(), all.end(), bad)); };
-  bool met =
-      judge(all, "stretch error", &Outcome::stretch_before, &Outcome::stretch_after, kGoodStretch, kPercent, "%");
-  met &= judge(all, "position error", &Outcome::position_before, &Outcome::position_after, kGoodPosition, kMm, "mm");
+  bool met = judge(all, "stretch error", &PairOutcome::stretch_before, &PairOutcome::stretch_after, kGoodStretch,
+                   kPercent, "%");
+  met &= judge(all, "position error", &PairOutcome::position_before, &PairOutcome::position_after, kGoodPosition, kMm,
+               "mm");
   met &= verdict("pairs worse by more than 0.1 % stretch",
-                 count([](const Outcome& o) { return o.stretch_after > o.stretch_before + kWorseStretch; }));
+                 count([](const PairOutcome& o) { return o.stretch_after > o.stretch_before + kWorseStretch; }));
   met &= verdict("pairs worse by more than 1 mm",
-                 count([](const Outcome& o) { return o.position_after > o.position_before + kWorsePosition; }));
+                 count([](const PairOutcome& o) { return o.position_after > o.position_before + kWorsePosition; }));
   met &= verdict("pairs with a sewn side off by more than 0.5 mm",
-                 count([](const Outcome& o) { return o.seam > kSeamGate; }));
-  met &= verdict("pairs with flipped triangles", count([](const Outcome& o) { return o.flips > 0; }));
-  met &=
-      verdict("pairs with a panel that overlaps itself", count([](const Outcome& o) { return o.crossing_panels > 0; }));
+                 count([](const PairOutcome& o) { return o.seam > kSeamGate; }));
+  met &= verdict("pairs with flipped triangles", count([](const PairOutcome& o) { return o.flips > 0; }));
+  met &= verdict("pairs with a panel that overlaps itself",
+                 count([](const PairOutcome& o) { return o.crossing_panels > 0; }));
   met &= verdict("pairs that failed", failures);
   return met ? 0 : 1;
 }
@@ -108,7 +102,7 @@ int derive_pairs(const DeriveRequest& request, const Arguments& arguments) {
   Table table({"garment", "body", "stretch before %", "after %", "position before mm", "after mm", "seam mm", "edge mm",
                "worst edge", "bent", "polylines", "flips", "overlaps", "passes %", "held back", "sweeps", "rest",
                "CPU s"});
-  std::vector<Outcome> outcomes;
+  std::vector<PairOutcome> outcomes;
   int failures = 0;
   for (const std::string& garment : request.garments)
     for (const std::string& body : request.bodies) {
@@ -117,7 +111,7 @@ int derive_pairs(const DeriveRequest& request, const Arguments& arguments) {
       const double start = cpu_seconds();
       try {
         const DerivedGarment r = derive_pair(garment, body, request.options, stages.get());
-        const Outcome o = outcome_of(r);
+        const PairOutcome o = pair_outcome(r);
         outcomes.push_back(o);
         std::string passes;
         for (const double e : r.derived.pass_errors) passes.append(fixed(kPercent * e, 2)).append(" ");

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "engine/render/drawing_picture.h"
-#include "engine/render/png.h"
 #include "engine/stages/draw_pattern.h"
 #include "tests/bench/derive.h"
+#include "tests/bench/drape_sheets.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/shared_data.h"
 
@@ -99,12 +99,9 @@ DeriveRequest derive_request(const std::vector<std::string>& words) {
 
 void write_changes(const std::string& folder, const std::string& name, const Pattern& original,
                    const Pattern& changed) {
-  std::filesystem::create_directories(folder);
   DrawingPictureOptions options;
   options.title = name;
-  const Bytes png = write_png(draw_picture(draw_changes(original, changed), options));
-  std::ofstream(folder + "/" + name + ".png", std::ios::binary)
-      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  write_picture(folder, name, draw_picture(draw_changes(original, changed), options));
 }
 
 GarmentInput shared_garment(const std::string& name) {

@@ -13,7 +13,7 @@
 namespace toile::bench {
 namespace {
 
-constexpr double kMm = 1e3, kGate = 2e-3;
+constexpr double kGate = 2e-3;
 
 // The way back as a user takes it: target_pattern.json of the first way with the target_worn.obj beside it.
 DerivedGarment way_back(const DerivedGarment& there, const std::string& from, const std::string& to,

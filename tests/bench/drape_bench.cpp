@@ -15,6 +15,7 @@
 #include "engine/render/png.h"
 #include "engine/stages/render_views.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/drape_sheets.h"
 #include "tests/bench/fine_reference.h"
 #include "tests/bench/words.h"
 #include "tests/support/dressed.h"
@@ -25,7 +26,7 @@ namespace {
 
 constexpr int kCellWidth = 780, kCellHeight = 480, kCellsAcross = 4;  // of the sheet, pixels
 
-struct Request {
+struct DrapeRequest {
   std::vector<std::string> garments;
   std::vector<int> sizes = {4300, 10000};
   std::string body, sheet;
@@ -35,8 +36,8 @@ struct Request {
   bool other_bodies = false, growth = false, halves = false;
 };
 
-Request parse(Words words) {
-  Request request;
+DrapeRequest drape_request(Words words) {
+  DrapeRequest request;
   if (const auto triangles = words.integer("--triangles")) request.sizes = {*triangles};
   request.iterations = words.integer("--iterations");
   if (words.flag("--no-self-contact")) request.self_contact = SelfContact::Off;
@@ -53,18 +54,12 @@ Request parse(Words words) {
 }
 
 // Bodies a garment is put on; the empty name is its own.
-std::vector<std::string> bodies_for(const Request& request, const std::string& garment) {
+std::vector<std::string> bodies_for(const DrapeRequest& request, const std::string& garment) {
   if (!request.other_bodies) return {request.body};
   const std::string own = test::body_of_garment(garment);
   if (own == "ggg_mean_female") return {"ggg_mean_all", "ggg_small_female", "mh_female_average", "mh_male_old_heavy"};
   if (own == "ggg_mean_male") return {"ggg_mean_all", "ggg_large_male", "mh_female_average", "mh_male_old_heavy"};
   return {"ggg_mean_female", "ggg_mean_male", "mh_female_average", "mh_male_old_heavy"};
-}
-
-std::string names_of(const std::vector<DrapeFinding>& findings) {
-  std::string names;
-  for (const DrapeFinding& finding : findings) names += (names.empty() ? "" : " ") + finding.name;
-  return names;
 }
 
 Image picture(const std::string& title, const test::Dressing& d, const Drape& drape) {
@@ -78,7 +73,7 @@ Image picture(const std::string& title, const test::Dressing& d, const Drape& dr
 
 class DrapeBench {
  public:
-  explicit DrapeBench(const Request& request) : request_(request) {}
+  explicit DrapeBench(const DrapeRequest& request) : request_(request) {}
 
   int run(const std::string& csv) {
     for (const std::string& garment : request_.garments)
@@ -188,7 +183,7 @@ class DrapeBench {
         .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
   }
 
-  const Request& request_;
+  const DrapeRequest& request_;
   Table table_{{"garment", "body",     "triangles", "CPU s",   "moved",   "it",      "rest",       "residual",
                 "move mm", "weft %",   "warp %",    "node mm", "edge mm", "cross",   "crossing %", "waist m",
                 "diff mm", "lowest m", "diff mm",   "rung",    "peak MB", "findings"}};
@@ -208,7 +203,7 @@ int bench_drape(const Arguments& arguments) {
     std::fprintf(stderr, "toile-bench drape needs ../shared/data\n");
     return 2;
   }
-  const Request request = parse(Words(arguments.words));
+  const DrapeRequest request = drape_request(Words(arguments.words));
   return DrapeBench(request).run(arguments.csv);
 }
 

@@ -16,25 +16,21 @@
 namespace toile::bench {
 namespace {
 
-struct Request {
+struct ExamplesRequest {
   std::vector<std::string> garments;
   AlterOptions options;
   std::string pictures;  // folder, or empty
   bool sentences = false;
 };
 
-Request parse(Words words) {
-  Request request;
+ExamplesRequest examples_request(Words words) {
+  ExamplesRequest request;
   request.options.triangles = words.integer("--triangles").value_or(4000);
   request.options.outputs = {"fit_reference.png", "fit_before.png", "fit_target.png", "fit_after.png", "pattern.png"};
   request.pictures = words.text("--pictures").value_or("");
   request.sentences = words.flag("--sentences");
   request.garments = words.rest();
   return request;
-}
-
-std::string percent(double share) {
-  return fixed(100.0 * share, 2);
 }
 
 // "converged 0/0 0.0": rest, nodes and edges inside the body, share of triangles that cross, in percent.
@@ -61,17 +57,18 @@ std::vector<std::string> row_of(const AlterResult& r) {
           sewn      ? state(r.after->drape.quality)
           : r.after ? r.after->problem
                     : "",
-          percent(before),
-          percent(r.derived.rms_stretch_error),
-          sewn ? percent(compare_fits(r.after->mesh, r.after->reference, r.after->fit).whole.rms_stretch) : "",
+          percent(before, 2),
+          percent(r.derived.rms_stretch_error, 2),
+          sewn ? percent(compare_fits(r.after->mesh, r.after->reference, r.after->fit).whole.rms_stretch, 2) : "",
           std::to_string(r.derived.derivation.flipped_triangles),
-          percent(r.altered.area_imbalance),
+          percent(r.altered.area_imbalance, 2),
           std::to_string(r.altered.ticket.operations.size()),
           std::to_string(r.altered.flags.size()),
           std::to_string(r.altered.sewn.flags.size())};
 }
 
-void add_row(Table& table, const Request& request, const test::ShippedExample& example, const std::string& target) {
+void add_row(Table& table, const ExamplesRequest& request, const test::ShippedExample& example,
+             const std::string& target) {
   const std::string file = std::string(example.name) + ".json";
   const GarmentInput garment = {file, test::read_file(test::shipped_example_folder() + file)};
   const BodyInput wearer = {.name = std::string("builtin:") + example.wearer, .bytes = {}};
@@ -99,7 +96,7 @@ void add_row(Table& table, const Request& request, const test::ShippedExample& e
 }  // namespace
 
 int bench_examples(const Arguments& arguments) {
-  const Request request = parse(Words(arguments.words));
+  const ExamplesRequest request = examples_request(Words(arguments.words));
   Table table({"garment", "target", "on its own", "as it is", "target pattern", "altered", "before %", "target %",
                "altered %", "flips", "area off %", "sewn steps", "flags", "sewing flags", "CPU s"});
   for (const test::ShippedExample& example : test::kShippedExamples) {

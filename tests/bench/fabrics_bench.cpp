@@ -15,15 +15,15 @@
 namespace toile::bench {
 namespace {
 
-struct Request {
+struct FabricsRequest {
   std::vector<std::string> fabrics;
   std::string folder;
   int rings = 11;
   bool growth = false;
 };
 
-Request parse(Words words) {
-  Request request;
+FabricsRequest fabrics_request(Words words) {
+  FabricsRequest request;
   request.rings = words.integer("--rings").value_or(request.rings);
   request.folder = words.text("--pictures").value_or("");
   request.growth = words.flag("--growth");
@@ -32,7 +32,7 @@ Request parse(Words words) {
   return request;
 }
 
-void write_picture(const Request& request, const std::string& name, const test::Specimen& s) {
+void write_picture(const FabricsRequest& request, const std::string& name, const test::Specimen& s) {
   if (request.folder.empty()) return;
   ViewOptions options;
   options.views = {View::Front, View::Left};
@@ -42,10 +42,6 @@ void write_picture(const Request& request, const std::string& name, const test::
   const Bytes png = render_views(nullptr, &s.mesh, &s.drape, nullptr, options);
   std::ofstream(request.folder + "/" + name + ".png", std::ios::binary)
       .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
-}
-
-std::string percent(double share) {
-  return fixed(100 * share, 1);
 }
 
 std::string triangles_of(const test::DrapeMeter& meter) {
@@ -68,7 +64,7 @@ std::string worst_residual(const test::DrapeMeter& meter) {
 // Extension at the load at which cloth is compared: 98 N/m (100 gf/cm, FAST-3).
 constexpr double kLoad = 98.1;
 
-void run_one(const Request& request, const Fabric& fabric, Table& table) {
+void run_one(const FabricsRequest& request, const Fabric& fabric, Table& table) {
   const double start = cpu_seconds();
   const test::Cantilever strip = test::cantilever(fabric, 12);
   const test::DrapeMeter meter = test::drape_meter(fabric, request.rings);
@@ -97,7 +93,7 @@ void run_growth(const Fabric& fabric, Table& table) {
 }  // namespace
 
 int bench_fabrics(const Arguments& arguments) {
-  const Request request = parse(Words(arguments.words));
+  const FabricsRequest request = fabrics_request(Words(arguments.words));
   Table table(request.growth
                   ? std::vector<std::string>{"fabric", "triangles", "drape %", "spread", "folds", "residual", "CPU s"}
                   : std::vector<std::string>{"fabric", "bending length mm", "off elastica %", "triangles", "drape %",

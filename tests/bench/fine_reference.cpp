@@ -28,7 +28,7 @@ Points3 at_vertices(const PatternMesh& mesh, const Drape& drape) {
   return all;
 }
 
-constexpr int kSamples = 4;  // along each side of a coarse triangle
+constexpr int kSamplesAcross = 4;  // along each side of a coarse triangle
 
 // Mean stretch of the fine cloth over each coarse triangle, #F.
 struct MeanStretch {
@@ -42,14 +42,14 @@ MeanStretch mean_stretch(const PatternMesh& fine, const FittingMap& fit, const P
     for (int f = coarse.panels[p].triangle_begin; f < coarse.panels[p].triangle_end; ++f) {
       const Vec2 a = coarse.rest.row(coarse.triangles(f, 0)), b = coarse.rest.row(coarse.triangles(f, 1)),
                  c = coarse.rest.row(coarse.triangles(f, 2));
-      for (int k = 0; k < kSamples * kSamples; ++k) {  // the middles of as many small triangles
+      for (int k = 0; k < kSamplesAcross * kSamplesAcross; ++k) {  // the middles of as many small triangles
         const int row = static_cast<int>(std::sqrt(k)), column = k - row * row;
-        const double t = (row + (column % 2 ? 1.0 : 2.0) / 3) / kSamples,
-                     s = (column / 2 + (column % 2 ? 2.0 : 1.0) / 3) / kSamples;
+        const double t = (row + (column % 2 ? 1.0 : 2.0) / 3) / kSamplesAcross,
+                     s = (column / 2 + (column % 2 ? 2.0 : 1.0) / 3) / kSamplesAcross;
         const Vec2 at = a + (t - s) * (b - a) + s * (c - a);
         const int there = fine.panels[p].triangle_begin + locator.closest(at).triangle;
-        mean.weft[f] += fit.stretch_weft[there] / (kSamples * kSamples);
-        mean.warp[f] += fit.stretch_warp[there] / (kSamples * kSamples);
+        mean.weft[f] += fit.stretch_weft[there] / (kSamplesAcross * kSamplesAcross);
+        mean.warp[f] += fit.stretch_warp[there] / (kSamplesAcross * kSamplesAcross);
       }
     }
   }

@@ -13,13 +13,13 @@
 namespace toile::bench {
 namespace {
 
-struct Request {
+struct GrowthRequest {
   std::string scene = "leggings_tight";
   std::vector<int> sizes = {2500, 5000, 10000, 20000};
 };
 
-Request parse(Words words) {
-  Request request;
+GrowthRequest growth_request(Words words) {
+  GrowthRequest request;
   if (const auto sizes = words.list("--sizes")) {
     request.sizes.clear();
     for (const std::string& size : *sizes) request.sizes.push_back(std::atoi(size.c_str()));
@@ -31,7 +31,7 @@ Request parse(Words words) {
 }  // namespace
 
 int bench_growth(const Arguments& arguments) {
-  const Request request = parse(Words(arguments.words));
+  const GrowthRequest request = growth_request(Words(arguments.words));
   const test::Scene scene = test::named_scene(request.scene);
   AlterOptions options;
   options.outputs = outputs_named("none");

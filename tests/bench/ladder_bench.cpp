@@ -19,14 +19,14 @@ namespace {
 
 constexpr int kRungs = 2;
 
-struct Request {
+struct LadderRequest {
   std::vector<std::string> garments;
   int people = 0, first = 0, triangles = 1500, from = 0;
   double off = 0.0;  // m
 };
 
-Request parse(Words words) {
-  Request request;
+LadderRequest ladder_request(Words words) {
+  LadderRequest request;
   const auto whole = [&](const char* name, int& value) { value = words.integer(name).value_or(value); };
   whole("--people", request.people);
   whole("--first", request.first);
@@ -39,7 +39,7 @@ Request parse(Words words) {
 
 class LadderBench {
  public:
-  explicit LadderBench(const Request& request) : request_(request) {
+  explicit LadderBench(const LadderRequest& request) : request_(request) {
     for (const std::string& garment : request.garments) {
       dressed_.push_back(test::dress(garment, request.triangles));
       test::Dressing& d = dressed_.back();
@@ -105,7 +105,7 @@ class LadderBench {
     table_.add({garment, body, end, fixed(cpu_seconds() - start, 2), why});
   }
 
-  const Request& request_;
+  const LadderRequest& request_;
   std::vector<test::Dressing> dressed_;  // on their own bodies
   Table table_{{"garment", "body", "end", "CPU s", "node / edge inside, or why refused"}};
   std::array<int, kRungs> by_rung_{};
@@ -119,7 +119,7 @@ int bench_ladder(const Arguments& arguments) {
     std::fprintf(stderr, "toile-bench ladder needs ../shared/data\n");
     return 2;
   }
-  const Request request = parse(Words(arguments.words));
+  const LadderRequest request = ladder_request(Words(arguments.words));
   return LadderBench(request).run(arguments.csv);
 }
 

@@ -22,13 +22,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Request {
+struct LedgerRequest {
   std::vector<std::string> programs;
   std::string filter = "-Slow*";  // of GoogleTest; empty: everything
 };
 
-Request parse(const std::vector<std::string>& words) {
-  Request request;
+LedgerRequest ledger_request(const std::vector<std::string>& words) {
+  LedgerRequest request;
   const fs::path folder = fs::canonical("/proc/self/exe").parent_path();
   for (std::size_t i = 0; i < words.size(); ++i)
     if (words[i] == "--slow")
@@ -91,7 +91,7 @@ std::string figure(double value) {
 }  // namespace
 
 int bench_ledger(const Arguments& arguments) {
-  const Request request = parse(arguments.words);
+  const LedgerRequest request = ledger_request(arguments.words);
   const std::string file = fs::temp_directory_path() / print_text("toile_ledger_%d", ::getpid());
   setenv("TOILE_LEDGER", file.c_str(), 1);
   Table table({"program", "test", "compared", "times", "tolerance", "reached", "used %"});

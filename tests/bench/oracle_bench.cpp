@@ -24,15 +24,15 @@
 namespace toile::bench {
 namespace {
 
-struct Request {
+struct OracleRequest {
   std::vector<std::string> garments;
   int triangles = 10000;
   std::optional<double> residual, stop_settled;
   bool frictionless = false, finer = false;
 };
 
-Request parse(Words words) {
-  Request request;
+OracleRequest oracle_request(Words words) {
+  OracleRequest request;
   request.triangles = words.integer("--triangles").value_or(request.triangles);
   request.residual = words.number("--residual");
   request.stop_settled = words.number("--stop-settled");
@@ -44,7 +44,7 @@ Request parse(Words words) {
   return request;
 }
 
-void run_finer(const Request& request, const std::string& name, Table& table) {
+void run_finer(const OracleRequest& request, const std::string& name, Table& table) {
   test::Dressing d = test::dress(name, request.triangles);
   if (request.stop_settled) d.options.stop_settled = *request.stop_settled;
   HeldDrape end;
@@ -66,7 +66,7 @@ void run_finer(const Request& request, const std::string& name, Table& table) {
              fixed(100 * error.triangle_stretch, 3), fixed(1e3 * error.position, 2), fixed(1e3 * error.hem, 2)});
 }
 
-void run_one(const Request& request, const std::string& name, Table& table) {
+void run_one(const OracleRequest& request, const std::string& name, Table& table) {
   test::Dressing d = test::dress(name, request.triangles);
   if (request.frictionless) d.options.friction = 0;
   if (request.stop_settled) d.options.stop_settled = *request.stop_settled;
@@ -105,7 +105,7 @@ int bench_oracle(const Arguments& arguments) {
     std::fprintf(stderr, "toile-bench oracle needs ../shared/data\n");
     return 2;
   }
-  const Request request = parse(Words(arguments.words));
+  const OracleRequest request = oracle_request(Words(arguments.words));
   if (request.finer) {
     Table finer({"garment", "triangles", "finer", "default CPU s", "finer CPU s", "default residual", "finer residual",
                  "default it", "finer it", "stretch rms %", "triangles' %", "position mm", "hem mm"});

@@ -24,7 +24,7 @@
 namespace toile::bench {
 namespace {
 
-struct Request {
+struct ParetoRequest {
   std::vector<std::string> scenes;
   std::vector<Accuracy> points;
   Accuracy fine{40000, 0.1, SolverKind::Default, 0.1};
@@ -64,8 +64,8 @@ std::vector<Accuracy> points_of(Words& words) {
   return points;
 }
 
-Request parse(Words words) {
-  Request request;
+ParetoRequest pareto_request(Words words) {
+  ParetoRequest request;
   request.points = points_of(words);
   request.fine.triangles = words.integer("--fine").value_or(request.fine.triangles);
   request.fine.stop_residual = words.number("--fine-residual").value_or(request.fine.stop_residual);
@@ -98,7 +98,7 @@ Answer reference(const char* what, const std::string& name, const SceneBodies& s
   return fine;
 }
 
-Point run_point(const Request& request, const SceneBodies& scene, Point point, int repeats) {
+Point run_point(const ParetoRequest& request, const SceneBodies& scene, Point point, int repeats) {
   std::vector<double> times;
   for (int i = 0; i < repeats; ++i) {
     Answer found = answer(scene, point.accuracy);
@@ -117,7 +117,7 @@ Point run_point(const Request& request, const SceneBodies& scene, Point point, i
   return point;
 }
 
-std::vector<Point> run_scene(const Request& request, const std::string& name, int repeats) {
+std::vector<Point> run_scene(const ParetoRequest& request, const std::string& name, int repeats) {
   const SceneBodies scene = read_scene(test::named_scene(name));
   std::vector<Point> points;
   for (const Accuracy& accuracy : request.points)
@@ -167,7 +167,7 @@ void add_error(const std::optional<AnswerError>& error, std::vector<std::string>
 }  // namespace
 
 int bench_pareto(const Arguments& arguments) {
-  const Request request = parse(Words(arguments.words));
+  const ParetoRequest request = pareto_request(Words(arguments.words));
   std::vector<Point> points;
   for (const std::string& scene : request.scenes) {
     try {

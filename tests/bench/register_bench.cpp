@@ -13,17 +13,13 @@
 namespace toile::bench {
 namespace {
 
-std::string mm(double metres) {
-  return fixed(metres * 1e3, 2);
-}
-
 struct Run {
   double seconds;
   test::RegistrationScore score;
 };
 
-Run measure(const RegistrationReference& reference, const std::string& name, const test::RegistrationCase& known,
-            int repeats) {
+Run time_registration(const RegistrationReference& reference, const std::string& name,
+                      const test::RegistrationCase& known, int repeats) {
   RegisterBodiesResult result;
   const Timing time = time_cpu(repeats, [&] { result = register_bodies(reference, known.target); });
   return {time.median, score_registration(result.map.mapped, reference.weights, known, name, true)};
@@ -32,7 +28,8 @@ Run measure(const RegistrationReference& reference, const std::string& name, con
 void add_row(Table& table, const std::string& target, int triangles, const RegistrationReference& reference,
              const Run& run) {
   table.add({target, std::to_string(triangles), std::to_string(reference.surface.vertex_count()), fixed(run.seconds, 3),
-             mm(run.score.median), mm(run.score.p95), mm(run.score.surface_mean), mm(run.score.surface_p95)});
+             mm(run.score.median, 2), mm(run.score.p95, 2), mm(run.score.surface_mean, 2),
+             mm(run.score.surface_p95, 2)});
 }
 
 // A coarser scan of the same person.
@@ -66,13 +63,13 @@ int bench_register(const Arguments& arguments) {
     const bool is_large = std::string(scan) == "scan_b";
     const RegistrationReference& reference = is_large ? large : small;
     add_row(table, scan, known.target.surface.triangle_count(), reference,
-            measure(reference, is_large ? mean : woman, known, arguments.repeats));
+            time_registration(reference, is_large ? mean : woman, known, arguments.repeats));
   }
   std::vector<double> sizes, times;
   const test::RegistrationCase finest = test::scan_case("scan_d");
   for (const int triangles : {3200, 6400, 12800, 25600, 51200}) {
     const test::RegistrationCase known = coarser(finest, triangles);
-    const Run run = measure(small, woman, known, arguments.repeats);
+    const Run run = time_registration(small, woman, known, arguments.repeats);
     add_row(table, "scan_d coarser", known.target.surface.triangle_count(), small, run);
     sizes.push_back(known.target.surface.triangle_count()), times.push_back(run.seconds);
   }

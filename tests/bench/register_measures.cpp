@@ -14,7 +14,7 @@
 namespace toile::bench {
 namespace {
 
-MeasureBodyResult measure(TriangleMesh body) {
+MeasureBodyResult measured(TriangleMesh body) {
   body.vertices.col(1).array() -= body.vertices.col(1).minCoeff();  // a scan's frame has no soles to stand on
   return measure_body(body, find_skeleton(body).skeleton);
 }
@@ -37,7 +37,7 @@ int bench_register_measures(const Arguments& arguments) {
     for (const char* column : {" true", " off"}) columns.push_back(name + column);
     const test::RegistrationCase known = find_case(name);
     const Measurements found = measure_scan(known.target).measured.measurements;
-    for (const auto& [measure_name, value] : measure(known.truth).measurements) {
+    for (const auto& [measure_name, value] : measured(known.truth).measurements) {
       std::vector<std::string>& row = rows[measure_name];
       if (row.empty()) row.push_back(measure_name);
       row.push_back(fixed(value * 1e3, 1)), row.push_back(fixed((found.at(measure_name) - value) * 1e3, 1));

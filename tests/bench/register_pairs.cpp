@@ -9,12 +9,11 @@
 #include "tests/bench/register_tables.h"
 #include "tests/support/registration/registration_score.h"
 #include "tests/support/shared_body.h"
+#include "tests/support/shared_data.h"
 
 namespace toile::bench {
 namespace {
 
-constexpr const char* kWoman = "mh_female_average";
-constexpr const char* kMean = "ggg_mean_all";
 constexpr const char* kMeasured[] = {"waist_girth", "hip_girth", "bust_girth", "thigh_girth", "inside_leg_length"};
 
 struct Pair {
@@ -22,26 +21,23 @@ struct Pair {
 };
 
 std::vector<Pair> all_pairs() {
-  std::vector<Pair> pairs = {{kWoman, "scan_a"}, {kWoman, "scan_c"}, {kWoman, "scan_d"}, {kMean, "scan_b"}};
+  std::vector<Pair> pairs = {
+      {test::kWoman, "scan_a"}, {test::kWoman, "scan_c"}, {test::kWoman, "scan_d"}, {test::kMean, "scan_b"}};
   for (const char* name :
        {"mh_female_thin_short", "mh_female_thin_tall", "mh_female_heavy_short", "mh_female_heavy_tall",
         "mh_female_athletic", "mh_child_8y", "mh_male_average", "mh_male_old_heavy"})
-    pairs.push_back({kWoman, name});
+    pairs.push_back({test::kWoman, name});
   for (const char* name : {"ggg_mean_female", "ggg_mean_male", "ggg_male_extra", "ggg_small_female", "ggg_large_male"})
-    pairs.push_back({kMean, name});
-  for (const char* name : {kWoman, "mh_male_average", "mh_child_8y"}) {
-    pairs.push_back({kMean, name});
-    pairs.push_back({name, kMean});
+    pairs.push_back({test::kMean, name});
+  for (const char* name : {test::kWoman, "mh_male_average", "mh_child_8y"}) {
+    pairs.push_back({test::kMean, name});
+    pairs.push_back({name, test::kMean});
   }
   return pairs;
 }
 
 Measurements measure(const TriangleMesh& body) {
   return measure_body(body, find_skeleton(body).skeleton).measurements;
-}
-
-std::string mm(double metres, int digits = 1) {
-  return fixed(metres * 1e3, digits);
 }
 
 }  // namespace

@@ -12,10 +12,6 @@
 namespace toile::bench {
 namespace {
 
-std::string mm(double metres, int digits = 1) {
-  return fixed(metres * 1e3, digits);
-}
-
 bool is_man(const std::string& name) {
   return name.starts_with("mh_male");
 }

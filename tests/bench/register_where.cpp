@@ -32,7 +32,7 @@ struct Slip {
   double along = 0.0, round = 0.0, across = 0.0;  // m
 };
 
-struct Axis {
+struct LimbAxis {
   Vec3 low, high;
 };
 
@@ -41,7 +41,7 @@ Vec3 to_left(Vec3 p, bool right) {
   return p;
 }
 
-Axis axis_of(const Skeleton& s, int part, Side side) {
+LimbAxis axis_of(const Skeleton& s, int part, Side side) {
   const auto& leg = s.legs[side];
   const auto& arm = s.arms[side];
   switch (part) {
@@ -81,7 +81,7 @@ std::vector<Slip> find_slips(const RegistrationReference& reference, const Point
     const bool right = reference.surface.vertices(v, 0) < 0;
     Slip s;
     s.part = part_of(reference.weights.row(v));
-    const Axis axis = axis_of(skeleton, s.part, right ? Right : Left);
+    const LimbAxis axis = axis_of(skeleton, s.part, right ? Right : Left);
     const Vec3 low = to_left(axis.low, right), p = to_left(truth, right), up = to_left(axis.high, right) - low;
     const Vec3 error = to_left(Vec3(mapped.row(v)) - truth, right);
     const Vec3 along = up.normalized();
@@ -101,19 +101,11 @@ double length(const Slip& s) {
   return std::sqrt(s.along * s.along + s.round * s.round + s.across * s.across);
 }
 
-double median(std::vector<double> values) {
-  return test::quantile(std::move(values), 0.5);
-}
-
 template <class Of>
 std::vector<double> values_of(const std::vector<Slip>& slips, const Of& of) {
   std::vector<double> out;
   for (const Slip& s : slips) out.push_back(of(s));
   return out;
-}
-
-std::string mm(double metres) {
-  return fixed(metres * 1e3, 1);
 }
 
 void add_row(Table& table, const char* part, const std::string& band, const char* sector,

@@ -6,27 +6,18 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
-#include <map>
 
 #include "engine/core/error.h"
 #include "engine/core/units.h"
 #include "engine/geometry/distance_field.h"
 #include "engine/stage_options.h"
+#include "tests/bench/derive.h"
 #include "tests/bench/proof.h"
 #include "tests/bench/whole_job.h"
 #include "tests/bench/words.h"
 
 namespace toile::bench {
 namespace {
-
-struct MemoryStages : StageCache {
-  std::map<std::string, Bytes> kept;
-  std::optional<Bytes> get(const std::string& key) override {
-    const auto found = kept.find(key);
-    return found == kept.end() ? std::nullopt : std::optional(found->second);
-  }
-  void put(const std::string& key, const Bytes& value) override { kept.emplace(key, value); }
-};
 
 std::string same_bytes(bool same) {
   return same ? "same bytes" : "BYTES DIFFER";
@@ -40,7 +31,7 @@ class SkipBench {
   SkipBench(const std::string& name, int triangles, int repeats) : scene_(test::named_scene(name)), repeats_(repeats) {
     options_.triangles = triangles;
     options_.outputs = outputs_named("none");
-    job_ = run_job(scene_, options_, &stages_);
+    job_ = run_job(scene_, options_, stages_.get());
     drape_options_ = drape_options_of(options_);
   }
 
@@ -67,12 +58,12 @@ class SkipBench {
   void job_savings() {
     JobRun cold, warm, with_all, with_after;
     const double off = seconds([&] { cold = run_job(scene_, options_); });
-    const double on = seconds([&] { warm = run_job(scene_, options_, &stages_); });
+    const double on = seconds([&] { warm = run_job(scene_, options_, stages_.get()); });
     add("stages done before are read back", off, on, same_bytes(cold.files.back().bytes == warm.files.back().bytes));
     AlterOptions all = options_;
     all.outputs = outputs_named("all");
-    run_job(scene_, all, &stages_);  // so that what is compared is the making of the files alone
-    const double made = seconds([&] { with_all = run_job(scene_, all, &stages_); });
+    run_job(scene_, all, stages_.get());  // so that what is compared is the making of the files alone
+    const double made = seconds([&] { with_all = run_job(scene_, all, stages_.get()); });
     add("files nobody asked for are not made", made, on,
         same_bytes(with_all.result.altered.target_area == warm.result.altered.target_area));
     AlterOptions after = options_;
@@ -204,7 +195,7 @@ class SkipBench {
   int repeats_;
   AlterOptions options_;
   DrapeOptions drape_options_;
-  MemoryStages stages_;
+  std::unique_ptr<StageCache> stages_ = stage_store({});
   JobRun job_;
   Table table_{{"saving", "off CPU s", "on CPU s", "saved %", "difference"}};
 };

@@ -15,14 +15,14 @@
 namespace toile::bench {
 namespace {
 
-struct Request {
+struct StagesRequest {
   std::vector<std::string> scenes;
   AlterOptions options;
   int threads = 1;  // of the job
 };
 
-Request parse(Words words) {
-  Request request;
+StagesRequest stages_request(Words words) {
+  StagesRequest request;
   request.options.outputs = outputs_named(words.text("--outputs").value_or("images"));
   if (const auto triangles = words.integer("--triangles")) request.options.triangles = *triangles;
   if (const auto preset = words.text("--preset")) request.options.preset = preset_named(*preset);
@@ -46,11 +46,6 @@ struct Samples {
   std::vector<double> cpu, wall, memory;
 };
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 void add_row(Table& table, Bars& bars, const std::string& scene, const std::string& stage, const Samples& samples) {
   const auto [least, most] = std::minmax_element(samples.cpu.begin(), samples.cpu.end());
   const auto goal = budget().find(stage);
@@ -64,7 +59,7 @@ void add_row(Table& table, Bars& bars, const std::string& scene, const std::stri
   bars.high.push_back(*most);
 }
 
-void run_scene(const Request& request, const std::string& name, int repeats, Table& table, Bars& bars) {
+void run_scene(const StagesRequest& request, const std::string& name, int repeats, Table& table, Bars& bars) {
   const test::Scene scene = test::named_scene(name);
   std::vector<std::string> order;
   std::map<std::string, Samples> stages;
@@ -90,7 +85,7 @@ void run_scene(const Request& request, const std::string& name, int repeats, Tab
 }  // namespace
 
 int bench_stages(const Arguments& arguments) {
-  const Request request = parse(Words(arguments.words));
+  const StagesRequest request = stages_request(Words(arguments.words));
   Table table({"scene", "stage", "CPU s", "least", "most", "wall s", "peak MB", "goal", "gate"});
   Bars bars{"CPU seconds of every stage of a job", "CPU s, median; line: least to most", {}, {}, {}, {}};
   for (const std::string& scene : request.scenes) run_scene(request, scene, arguments.repeats, table, bars);

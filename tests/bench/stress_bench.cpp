@@ -37,15 +37,15 @@ using stress::Outcome;
 
 constexpr rlim_t kMemory = rlim_t{3} << 30;  // bytes: a scene that wants more than 3 GB is out of hand
 
-struct Request {
+struct StressRequest {
   int scenes = 200, limit = 60;  // CPU s: a scene runs its job up to four times
   std::uint64_t seed = 1;
   std::string kind;
   bool all = false;
 };
 
-Request parse(Words words) {
-  Request request;
+StressRequest stress_request(Words words) {
+  StressRequest request;
   request.scenes = words.integer("--scenes").value_or(request.scenes);
   request.limit = std::max(1, words.integer("--limit").value_or(request.limit));
   if (const auto seed = words.text("--seed")) request.seed = std::strtoull(seed->c_str(), nullptr, 10);
@@ -54,7 +54,7 @@ Request parse(Words words) {
   return request;
 }
 
-[[noreturn]] void run_in_child(const Request& request, std::uint64_t seed, int pipe) {
+[[noreturn]] void run_in_child(const StressRequest& request, std::uint64_t seed, int pipe) {
   const auto seconds = static_cast<rlim_t>(request.limit);
   const rlimit cpu{seconds, seconds + 5}, memory{kMemory, kMemory}, core{0, 0};
   setrlimit(RLIMIT_CPU, &cpu);
@@ -70,14 +70,14 @@ Request parse(Words words) {
   _exit(0);
 }
 
-Bytes read_all(int pipe) {
+Bytes read_pipe(int pipe) {
   Bytes bytes;
   std::uint8_t buffer[4096];
-  for (ssize_t got; (got = read(pipe, buffer, sizeof buffer)) > 0;) bytes.insert(bytes.end(), buffer, buffer + got);
+  for (ssize_t got; (got = ::read(pipe, buffer, sizeof buffer)) > 0;) bytes.insert(bytes.end(), buffer, buffer + got);
   return bytes;
 }
 
-Outcome run_apart(const Request& request, std::uint64_t seed) {
+Outcome run_apart(const StressRequest& request, std::uint64_t seed) {
   int ends[2];
   if (pipe(ends) != 0) std::abort();
   const pid_t child = fork();
@@ -86,7 +86,7 @@ Outcome run_apart(const Request& request, std::uint64_t seed) {
     run_in_child(request, seed, ends[1]);
   }
   close(ends[1]);
-  const Bytes bytes = read_all(ends[0]);
+  const Bytes bytes = read_pipe(ends[0]);
   close(ends[0]);
   int status = 0;
   rusage usage{};
@@ -116,7 +116,7 @@ void count(const Outcome& outcome, Count& c) {
   c.cpu.push_back(outcome.cpu_s);
 }
 
-void tell(const Request& request, std::uint64_t seed, const Outcome& outcome) {
+void tell(const StressRequest& request, std::uint64_t seed, const Outcome& outcome) {
   const bool odd = outcome.ending == Ending::Refused && outcome.human_range;
   const bool slow = outcome.cpu_s > 0.5 * request.limit;
   if (outcome.ending != Ending::Bad && !odd && !slow && !(request.all && outcome.ending == Ending::Refused)) return;
@@ -140,7 +140,7 @@ void add_row(Table& table, const std::string& kind, Count c) {
 }  // namespace
 
 int bench_stress(const Arguments& arguments) {
-  const Request request = parse(Words(arguments.words));
+  const StressRequest request = stress_request(Words(arguments.words));
   std::map<std::string, Count> kinds;
   Count all;
   std::map<std::string, int> refusals;

@@ -10,6 +10,7 @@
 #include "engine/stages/render_views.h"
 #include "engine/stages/transport_garment.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/drape_sheets.h"
 #include "tests/bench/words.h"
 #include "tests/support/dressed.h"
 #include "tests/support/shared_data.h"
@@ -17,14 +18,14 @@
 namespace toile::bench {
 namespace {
 
-struct Request {
+struct TransportRequest {
   std::vector<std::string> garments, bodies;
   std::string folder;
   int triangles = 2500;
 };
 
-Request parse(Words words) {
-  Request request;
+TransportRequest transport_request(Words words) {
+  TransportRequest request;
   request.triangles = words.integer("--triangles").value_or(request.triangles);
   request.folder = words.text("--pictures").value_or("");
   while (const auto body = words.text("--body")) request.bodies.push_back(*body);
@@ -33,12 +34,6 @@ Request parse(Words words) {
     request.garments = {"leggings_tight", "tshirt_fitted", "dress_sleeveless", "pants_straight", "skirt_circle"};
   if (request.bodies.empty()) request.bodies = test::shared_body_names();
   return request;
-}
-
-std::string names_of(const std::vector<DrapeFinding>& findings) {
-  std::string names;
-  for (const DrapeFinding& finding : findings) names += (names.empty() ? "" : " ") + finding.name;
-  return names;
 }
 
 void write_picture(const std::string& file, const Body& body, const PatternMesh& mesh, const Drape& carried,
@@ -58,7 +53,7 @@ void write_picture(const std::string& file, const Body& body, const PatternMesh&
 // One garment, draped once on its own body, and everything that is worn by others.
 class Wardrobe {
  public:
-  Wardrobe(const Request& request, const std::string& garment)
+  Wardrobe(const TransportRequest& request, const std::string& garment)
       : request_(request), garment_(garment), own_(test::dress(garment, request.triangles)) {
     reference_drape_ = drape(own_.pattern, own_.mesh, own_.body, own_.options, nullptr).drape;
   }
@@ -85,7 +80,7 @@ class Wardrobe {
   const Body& body() const { return own_.body; }
 
  private:
-  const Request& request_;
+  const TransportRequest& request_;
   std::string garment_;
   test::Dressing own_;
   Drape reference_drape_;
@@ -95,7 +90,7 @@ class Wardrobe {
 
 int bench_transport(const Arguments& arguments) {
   if (!test::has_shared_data()) return std::fprintf(stderr, "../shared/data is not beside this checkout\n"), 3;
-  const Request request = parse(Words(arguments.words));
+  const TransportRequest request = transport_request(Words(arguments.words));
   Table table({"garment", "body", "map", "transport s", "drape s", "carried mm", "crossings", "rest", "residual",
                "node mm", "edge mm", "crossing %", "hold m", "findings"});
   std::map<std::string, Body> bodies;

@@ -19,7 +19,6 @@
 namespace toile::bench {
 namespace {
 
-constexpr double kPercent = 100.0;
 constexpr double kSameSide = 3e-3;  // m, from a side of the target panel to all of a piece's edge that lies on it
 
 double distance_to(const Vec2& p, const Points2& points, const std::vector<int>& line) {

@@ -7,15 +7,13 @@
 // contact_sheet.png.
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 
 #include "engine/core/units.h"
 #include "engine/io/garmentcode_json.h"
-#include "engine/render/png.h"
 #include "engine/stages/render_views.h"
 #include "tests/bench/alter_pairs.h"
 #include "tests/bench/derive.h"
+#include "tests/bench/drape_sheets.h"
 #include "tests/bench/words.h"
 #include "tests/support/shared_data.h"
 
@@ -50,15 +48,15 @@ constexpr WornPair kPairs[] = {
 
 constexpr int kViewHeight = 420, kPatternWidth = 520, kColumns = 2;
 
-struct Request {
+struct WornRequest {
   std::vector<std::string> garments;
   AlterOptions job;
   std::string stages, pictures;
   bool sentences = false;
 };
 
-Request parse(Words words) {
-  Request request;
+WornRequest worn_request(Words words) {
+  WornRequest request;
   request.job.triangles = words.integer("--triangles").value_or(4000);
   request.job.outputs = {"fit_after.png"};
   request.stages = words.text("--stages").value_or("");
@@ -66,13 +64,6 @@ Request parse(Words words) {
   request.sentences = words.flag("--sentences");
   request.garments = words.rest();
   return request;
-}
-
-void write(const std::string& folder, const std::string& name, const Image& image) {
-  std::filesystem::create_directories(folder);
-  const Bytes png = write_png(image);
-  std::ofstream(folder + "/" + name + ".png", std::ios::binary)
-      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
 }
 
 Image view_of(const Body& body, const PatternMesh& mesh, const Drape& drape, const FittingMap& fit,
@@ -155,7 +146,7 @@ int bench_worn(const Arguments& arguments) {
     std::fprintf(stderr, "toile-bench worn needs ../shared/data\n");
     return 2;
   }
-  const Request request = parse(Words(arguments.words));
+  const WornRequest request = worn_request(Words(arguments.words));
   const auto stages = stage_store(request.stages);
   Table table({"garment", "worn by", "for", "before %", "ideal %", "altered %", "rest", "inside", "operations",
                "in cm2", "out cm2", "balance %", "flags", "off mm", "allowed", "plans"});
@@ -178,7 +169,7 @@ int bench_worn(const Arguments& arguments) {
       }
       if (!request.pictures.empty()) {
         sheet.push_back(picture_of_pair(pair, r));
-        write(request.pictures, std::string(pair.garment) + "_" + pair.wearer + "_" + pair.body, sheet.back());
+        write_picture(request.pictures, std::string(pair.garment) + "_" + pair.wearer + "_" + pair.body, sheet.back());
       }
     } catch (const Error& error) {
       ++failed;
@@ -187,7 +178,7 @@ int bench_worn(const Arguments& arguments) {
     std::fflush(stdout);
   }
   table.print(arguments.csv);
-  if (!sheet.empty()) write(request.pictures, "contact_sheet", tile(sheet, kColumns));
+  if (!sheet.empty()) write_picture(request.pictures, "contact_sheet", tile(sheet, kColumns));
   return failed == 0 ? 0 : 1;
 }
 

@@ -37,8 +37,6 @@ class AttemptTest : public StoreTest {
   bool cancel = false, give_back = false;
 };
 
-}  // namespace
-
 TEST_F(AttemptTest, SucceedsWithItsFiles) {
   const Outcome outcome = run(kArtifact + kDone);
   EXPECT_EQ(outcome.kind, Outcome::Kind::Succeeded);
@@ -129,4 +127,5 @@ TEST_F(AttemptTest, KeepsFinishedStagesAndReadsThemBack) {
   EXPECT_EQ(outcome.kind, Outcome::Kind::Succeeded) << outcome.error->message;
 }
 
+}  // namespace
 }  // namespace toile::test

@@ -80,8 +80,6 @@ class PowerCut : public ::testing::Test {
   std::map<std::string, JobState> told_;
 };
 
-}  // namespace
-
 TEST_F(PowerCut, WhatWasAnsweredIsStillThereWhereverTheWritesStop) {
   {
     RecordingDisk* recording = nullptr;
@@ -123,4 +121,5 @@ TEST_F(PowerCut, IsNoticedWhereTheDatabaseDoesNotFlush) {
   EXPECT_GT(lost, 0u);
 }
 
+}  // namespace
 }  // namespace toile::test

@@ -22,17 +22,17 @@ class DeriveInLoop : public testing::Test {
                        {.name = "builtin:woman-46-175", .bytes = {}}, options_, runner)
             .value;
   }
-  static void TearDownTestSuite() { garment_ = {}; }
+  static void TearDownTestSuite() { garment_.reset(); }
 
   static DerivedPattern derive(const DeriveInLoopOptions& loop) {
-    DrapeSeries on_target(garment_.target_body);
-    return derive_in_loop(garment_.reference.pattern, garment_.reference.mesh, garment_.reference.fit, on_target,
-                          garment_.transported.drape, {}, derive_options_of(options_), drape_options_of(options_),
+    DrapeSeries on_target(garment_->target_body);
+    return derive_in_loop(garment_->reference.pattern, garment_->reference.mesh, garment_->reference.fit, on_target,
+                          garment_->transported.drape, {}, derive_options_of(options_), drape_options_of(options_),
                           loop);
   }
 
   static inline AlterOptions options_;
-  static inline DerivedGarment garment_;
+  static inline std::optional<DerivedGarment> garment_;
 };
 
 TEST_F(DeriveInLoop, TriesNoFurtherPassWhereTheFirstIsGoodEnough) {

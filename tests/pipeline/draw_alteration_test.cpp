@@ -13,12 +13,12 @@ namespace {
 using Map = std::function<Vec2(int panel, const Vec2&)>;
 
 // Two panels of 400 x 600 mm sewn along one side; what is asked of the first one.
-struct Example {
+struct AlteredFront {
   test::GridGarment garment = test::grid_garment({{"front", 0.4, 0.6, 20, 30, 0.2}, {"back", 0.4, 0.6, 20, 30}});
   AlterPatternResult result;
 
   // With its sides locked the panel must be cut open.
-  explicit Example(const Map& front, bool locked = false) {
+  explicit AlteredFront(const Map& front, bool locked = false) {
     for (const std::size_t side : {std::size_t{1}, std::size_t{3}})
       garment.pattern.panels[0].edges[side].locked = locked;
     const auto map = [&](int panel, const Vec2& p) -> Vec2 { return panel == 0 ? front(panel, p) : p; };
@@ -48,7 +48,7 @@ const DrawingPiece& piece_named(const Drawing& drawing, const std::string& name)
 }
 
 TEST(DrawAlteration, EveryInsertionIsAPieceAndUnchangedPanelsStayAsTheyWere) {
-  const Drawing drawing = Example(wider).draw();
+  const Drawing drawing = AlteredFront(wider).draw();
   ASSERT_EQ(drawing.pieces.size(), 4u);
   EXPECT_EQ(drawing.pieces[0].name, "front");
   EXPECT_EQ(drawing.pieces[1].name, "front_as_sewn");
@@ -61,7 +61,7 @@ TEST(DrawAlteration, EveryInsertionIsAPieceAndUnchangedPanelsStayAsTheyWere) {
 }
 
 TEST(DrawAlteration, CutAndStitchLineAreOneAllowanceApart) {
-  const Drawing drawing = Example(wider, true).draw();
+  const Drawing drawing = AlteredFront(wider, true).draw();
   int pieces = 0;
   for (const DrawingPiece& piece : drawing.pieces) {
     if (piece.role == PieceRole::Guide) continue;
@@ -79,7 +79,7 @@ TEST(DrawAlteration, CutAndStitchLineAreOneAllowanceApart) {
 }
 
 TEST(DrawAlteration, AnInsertionIsWiderByWhatTheCutClothTurnsIn) {
-  const Example example(wider, true);
+  const AlteredFront example(wider, true);
   ASSERT_EQ(example.result.panels[0].insertions.size(), 1u);
   const double open = example.result.panels[0].insertions[0].area * 1e6;
   const double piece =
@@ -88,7 +88,7 @@ TEST(DrawAlteration, AnInsertionIsWiderByWhatTheCutClothTurnsIn) {
 }
 
 TEST(DrawAlteration, ATakenInPanelShowsWhatIsTakenAway) {
-  const Drawing drawing = Example(narrower).draw();
+  const Drawing drawing = AlteredFront(narrower).draw();
   const DrawingPiece& front = piece_named(drawing, "front");
   EXPECT_EQ(lines_of(front, LineKind::Original).size(), 1u);
   ASSERT_EQ(lines_of(front, LineKind::Removal).size(), 1u);
@@ -97,7 +97,7 @@ TEST(DrawAlteration, ATakenInPanelShowsWhatIsTakenAway) {
 }
 
 TEST(DrawAlteration, TheGuideShowsInsertionsInTheirPlace) {
-  const DrawingPiece guide = piece_named(Example(wider).draw(), "front_as_sewn");
+  const DrawingPiece guide = piece_named(AlteredFront(wider).draw(), "front_as_sewn");
   const auto insertions = lines_of(guide, LineKind::Insertion);
   ASSERT_EQ(insertions.size(), 1u);
   EXPECT_NEAR(polygon_area(insertions[0].points), 40 * 600, 50);

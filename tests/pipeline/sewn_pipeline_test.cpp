@@ -13,6 +13,7 @@
 #include "engine/outputs.h"
 #include "engine/stages/draw_pattern.h"
 #include "engine/stages/import_pattern.h"
+#include "tests/pipeline/tube_job.h"
 #include "tests/support/shared_data.h"
 
 namespace toile {
@@ -21,23 +22,13 @@ namespace {
 constexpr double kExact = 5e-3;  // relative: areas and widths against the difference of the two patterns
 constexpr double kCm2 = 1e4;
 
-GarmentInput tube_skirt() {
-  return {"tube_skirt.json", test::read_file(std::string(TOILE_SOURCE_DIR) + "/schemas/examples/tube_skirt.json")};
-}
-
 BodyInput form(const std::string& name) {
   return {.name = "builtin:tube-" + name, .bytes = {}};
 }
 
-AlterOptions small() {
-  AlterOptions options;
-  options.triangles = 1000;
-  return options;
-}
-
 AlterResult alter(const GarmentInput& garment, const std::string& to) {
   StageRunner runner(nullptr, nullptr, kAlterStages);
-  return alter_garment(garment, form("14-100"), form(to), small(), runner);
+  return alter_garment(garment, form("14-100"), form(to), test::small_job(), runner);
 }
 
 Vec2 extent(const AlterResult& result, const Points2& rest, std::size_t panel) {
@@ -63,7 +54,7 @@ void expect_better_fit(const AlterResult& result) {
 }
 
 TEST(SewnPipeline, AWiderFormWantsAStripOfJustThatWidth) {
-  const AlterResult result = alter(tube_skirt(), "18-100");
+  const AlterResult result = alter(test::tube_skirt(), "18-100");
   double wanted = 0.0;
   for (std::size_t p = 0; p < 2; ++p) {
     const Vec2 before = extent(result, result.reference.mesh.rest, p),
@@ -88,7 +79,7 @@ TEST(SewnPipeline, AWiderFormWantsAStripOfJustThatWidth) {
 }
 
 TEST(SewnPipeline, ATallerFormWantsAStripAlongTheHem) {
-  const AlterResult result = alter(tube_skirt(), "14-125");
+  const AlterResult result = alter(test::tube_skirt(), "14-125");
   ASSERT_EQ(result.altered.ticket.operations.size(), 1u);
   EXPECT_EQ(result.altered.ticket.operations[0].kind, OperationKind::Lengthen);
   const double longer =
@@ -98,7 +89,7 @@ TEST(SewnPipeline, ATallerFormWantsAStripAlongTheHem) {
 }
 
 TEST(SewnPipeline, ANarrowerFormWantsATakeIn) {
-  const AlterResult result = alter(tube_skirt(), "11-100");
+  const AlterResult result = alter(test::tube_skirt(), "11-100");
   ASSERT_EQ(result.altered.ticket.operations.size(), 1u);
   EXPECT_EQ(result.altered.ticket.operations[0].kind, OperationKind::TakeIn);
   EXPECT_EQ(result.altered.inserted_area, 0.0);
@@ -113,9 +104,9 @@ TEST(SewnPipeline, ANarrowerFormWantsATakeIn) {
 }
 
 TEST(SewnPipeline, TheSameFormLeavesTheGarmentAsItIs) {
-  const AlterResult result = alter(tube_skirt(), "14-100");
+  const AlterResult result = alter(test::tube_skirt(), "14-100");
   EXPECT_TRUE(result.altered.ticket.operations.empty());
-  const Pattern before = import_pattern(tube_skirt().bytes), &after = result.altered.sewn.pattern;
+  const Pattern before = import_pattern(test::tube_skirt().bytes), &after = result.altered.sewn.pattern;
   ASSERT_EQ(after.panels.size(), before.panels.size());
   ASSERT_EQ(after.seams.size(), before.seams.size());
   for (std::size_t p = 0; p < before.panels.size(); ++p) {
@@ -126,9 +117,10 @@ TEST(SewnPipeline, TheSameFormLeavesTheGarmentAsItIs) {
 }
 
 std::string altered_document(const AlterResult& result) {
-  AlterOptions options = small();
+  AlterOptions options = test::small_job();
   options.outputs = {"altered_pattern.json"};
-  for (const OutputFile& file : alter_outputs(result, options, job_info(tube_skirt(), form("14-100"), form("18-125"))))
+  for (const OutputFile& file :
+       alter_outputs(result, options, job_info(test::tube_skirt(), form("14-100"), form("18-125"))))
     if (file.name == "altered_pattern.json") return {file.bytes.begin(), file.bytes.end()};
   return {};
 }
@@ -138,7 +130,7 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
 }
 
 TEST(SewnPipeline, TheAlteredPatternIsReadBackWithoutLossAndAlteredAgain) {
-  const AlterResult result = alter(tube_skirt(), "18-125");
+  const AlterResult result = alter(test::tube_skirt(), "18-125");
   const std::string document = altered_document(result);
   const SchemaCheck check = check_schema(bytes_of(document));
   EXPECT_EQ(check.schema, "altered_pattern");
@@ -166,12 +158,12 @@ TEST(SewnPipeline, TheAlteredPatternIsReadBackWithoutLossAndAlteredAgain) {
 }
 
 TEST(SewnPipeline, EveryDocumentOfAJobAgreesWithItsSchema) {
-  const AlterResult result = alter(tube_skirt(), "11-125");
-  AlterOptions options = small();
+  const AlterResult result = alter(test::tube_skirt(), "11-125");
+  AlterOptions options = test::small_job();
   options.outputs = {"altered_pattern.json", "target_pattern.json", "ticket.json"};
   std::vector<std::string> schemas;
   for (const OutputFile& file :
-       alter_outputs(result, options, job_info(tube_skirt(), form("14-100"), form("11-125")))) {
+       alter_outputs(result, options, job_info(test::tube_skirt(), form("14-100"), form("11-125")))) {
     const SchemaCheck check = check_schema(file.bytes);
     schemas.push_back(check.schema);
     for (const SchemaProblem& problem : check.problems)
@@ -182,7 +174,7 @@ TEST(SewnPipeline, EveryDocumentOfAJobAgreesWithItsSchema) {
 
 TEST(SewnPipeline, TheDrawingShowsThePiecesOfTheDocument) {
   constexpr double kSame = 0.01;  // mm
-  const AlterResult result = alter(tube_skirt(), "18-125");
+  const AlterResult result = alter(test::tube_skirt(), "18-125");
   const std::string document = altered_document(result);
   const Drawing read_back = draw_pattern(import_pattern(bytes_of(document)));
   const Drawing drawing = draw_alteration(result.reference.pattern, result.altered);
@@ -244,7 +236,7 @@ std::vector<double> drawn_widths(const AlterResult& result, const Drawing& drawi
 TEST(SewnPipeline, TheNumbersOfEverySentenceAreThoseOfTheDrawing) {
   int sentences = 0;
   for (const char* to : {"18-100", "15-100", "12-100", "14-125", "14-90", "18-125", "11-125", "16-90"}) {
-    const AlterResult result = alter(tube_skirt(), to);
+    const AlterResult result = alter(test::tube_skirt(), to);
     const Drawing drawing = draw_alteration(result.reference.pattern, result.altered);
     const auto& operations = result.altered.ticket.operations;
     for (std::size_t o = 0; o < operations.size(); ++o) {

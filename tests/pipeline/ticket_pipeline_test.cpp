@@ -28,7 +28,7 @@ AlterResult alter(const std::string& example, const std::string& from, const std
                        {.name = "builtin:" + to, .bytes = {}}, options, runner);
 }
 
-const DrawingPiece* piece_named(const Drawing& drawing, const std::string& name) {
+const DrawingPiece* find_piece(const Drawing& drawing, const std::string& name) {
   for (const DrawingPiece& piece : drawing.pieces)
     if (piece.name == name) return &piece;
   return nullptr;
@@ -46,7 +46,7 @@ void expect_same_pieces(const Drawing& drawing, const Ticket& ticket) {
   for (const TicketOperation& operation : ticket.operations)
     for (const TicketPiece& piece : operation.pieces) {
       ++listed[piece.name];
-      const DrawingPiece* found = piece_named(drawing, piece.name);
+      const DrawingPiece* found = find_piece(drawing, piece.name);
       ASSERT_NE(found, nullptr) << piece.name;
       const DrawingLine* stitch = closed_line(*found, LineKind::Stitch);
       ASSERT_NE(stitch, nullptr) << piece.name;
@@ -87,7 +87,7 @@ struct Drawn {
 Drawn drawn_of(const AlterResult& result, const Drawing& drawing, int operation) {
   Drawn drawn;
   const auto look = [&](const std::string& name, LineKind kind, LineKind outline, const std::vector<int>& operations) {
-    const DrawingPiece* piece = piece_named(drawing, name);
+    const DrawingPiece* piece = find_piece(drawing, name);
     const DrawingLine* border = piece ? closed_line(*piece, outline) : nullptr;
     std::size_t number = 0;
     for (const DrawingLine& line : border ? piece->lines : std::vector<DrawingLine>()) {

@@ -6,25 +6,16 @@
 #include "engine/job_report.h"
 #include "engine/outputs.h"
 #include "engine/result_records.h"
+#include "tests/pipeline/tube_job.h"
 #include "tests/support/shared_data.h"
 
 namespace toile {
 namespace {
 
-GarmentInput tube_skirt() {
-  return {"tube_skirt.json", test::read_file(std::string(TOILE_SOURCE_DIR) + "/schemas/examples/tube_skirt.json")};
-}
-
-AlterOptions small() {
-  AlterOptions options;
-  options.triangles = 1000;
-  return options;
-}
-
 AlterResult alter_tube(const std::string& from, const std::string& to, StageCache* cache = nullptr, int threads = 1) {
   StageRunner runner(cache, nullptr, kAlterStages, threads);
-  return alter_garment(tube_skirt(), {.name = "builtin:" + from, .bytes = {}}, {.name = "builtin:" + to, .bytes = {}},
-                       small(), runner);
+  return alter_garment(test::tube_skirt(), {.name = "builtin:" + from, .bytes = {}},
+                       {.name = "builtin:" + to, .bytes = {}}, test::small_job(), runner);
 }
 
 // Mean width and height of the target panels over those of the reference.
@@ -59,10 +50,10 @@ TEST(TubePipeline, WidensAndLengthensTheSkirtAsTheFormGrows) {
 
 // target_pattern.json with target_worn.obj beside it.
 GarmentInput handed_on(const AlterResult& there, const BodyInput& body) {
-  AlterOptions options = small();
+  AlterOptions options = test::small_job();
   options.outputs = {"target_pattern.json", "target_worn.obj"};
   GarmentInput again;
-  for (const OutputFile& file : alter_outputs(there, options, job_info(tube_skirt(), body, body))) {
+  for (const OutputFile& file : alter_outputs(there, options, job_info(test::tube_skirt(), body, body))) {
     if (file.name == "target_pattern.json") again.bytes = file.bytes;
     if (file.name == "target_worn.obj") again.worn = file.bytes;
   }
@@ -74,7 +65,7 @@ TEST(TubePipeline, ComesBackFromAnotherFormToThePatternItWentWith) {
   const BodyInput slim{.name = "builtin:tube-14-100", .bytes = {}}, stout{.name = "builtin:tube-18-125", .bytes = {}};
   const AlterResult there = alter_tube("tube-14-100", "tube-18-125");
   StageRunner runner(nullptr, nullptr, kDeriveStages);
-  const DerivedGarment back = derive_garment(handed_on(there, stout), stout, slim, small(), runner).value;
+  const DerivedGarment back = derive_garment(handed_on(there, stout), stout, slim, test::small_job(), runner).value;
   const auto size = [](const Points2& rest) -> Vec2 {
     return (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).transpose();
   };
@@ -106,11 +97,11 @@ struct MemoryCache : StageCache {
 
 std::string bytes_of(const AlterResult& result, const std::vector<std::string>& pictures = {}, bool at_once = false) {
   std::string all;
-  AlterOptions options = small();
+  AlterOptions options = test::small_job();
   options.outputs = {"reference_drape.obj", "target_before.obj", "target_pattern.json", "ticket.json"};
   options.outputs.insert(options.outputs.end(), pictures.begin(), pictures.end());
   const BodyInput body{.name = "builtin:tube-14-100", .bytes = {}};
-  const JobInfo info = job_info(tube_skirt(), body, body);
+  const JobInfo info = job_info(test::tube_skirt(), body, body);
   for (const OutputFile& file : alter_outputs(result, options, info, at_once))
     all.append(file.name).append(file.bytes.begin(), file.bytes.end());
   return all;
@@ -142,8 +133,8 @@ TEST(TubePipeline, GivesTheSameBytesWithTwoThreadsAsWithOne) {
 TEST(TubePipeline, TellsTheTimesOfStagesInOneOrderWithAnyNumberOfThreads) {
   const auto stages = [](int threads) {
     StageRunner runner(nullptr, nullptr, kAlterStages, threads);
-    alter_garment(tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
-                  {.name = "builtin:tube-18-100", .bytes = {}}, small(), runner);
+    alter_garment(test::tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
+                  {.name = "builtin:tube-18-100", .bytes = {}}, test::small_job(), runner);
     std::string names;
     for (const StageTiming& timing : runner.timings()) names += timing.stage + " ";
     return names;
@@ -153,12 +144,12 @@ TEST(TubePipeline, TellsTheTimesOfStagesInOneOrderWithAnyNumberOfThreads) {
 
 TEST(TubePipeline, DrapesTheGarmentAsItIsOnlyWhereAFileTellsOfIt) {
   const auto job = [](const std::string& output) {
-    AlterOptions options = small();
+    AlterOptions options = test::small_job();
     options.outputs = {output};
     StageRunner runner(nullptr, nullptr, kAlterStages);
     const BodyInput slim{.name = "builtin:tube-14-100", .bytes = {}}, stout{.name = "builtin:tube-18-100", .bytes = {}};
-    const AlterResult result = alter_garment(tube_skirt(), slim, stout, options, runner);
-    const auto files = alter_outputs(result, options, job_info(tube_skirt(), slim, stout));
+    const AlterResult result = alter_garment(test::tube_skirt(), slim, stout, options, runner);
+    const auto files = alter_outputs(result, options, job_info(test::tube_skirt(), slim, stout));
     const std::string told(files.back().bytes.begin(), files.back().bytes.end());
     EXPECT_EQ(told.find("\"before\"") != std::string::npos, result.before.has_value());
     return std::pair(result.before.has_value(), result.altered.target_area);
@@ -172,10 +163,10 @@ TEST(TubePipeline, DrapesTheGarmentAsItIsOnlyWhereAFileTellsOfIt) {
 
 TEST(TubePipeline, AltersAlikeWhateverFilesAreAskedFor) {
   const auto altered = [](const std::string& output) {
-    AlterOptions options = small();
+    AlterOptions options = test::small_job();
     options.outputs = {output};
     StageRunner runner(nullptr, nullptr, kAlterStages);
-    const AlterResult result = alter_garment(tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
+    const AlterResult result = alter_garment(test::tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
                                              {.name = "builtin:tube-18-125", .bytes = {}}, options, runner);
     EXPECT_GT(result.place.kept_plan().position, 0.0);
     return to_bytes(AlterInLoopResult{result.altered, {}, result.place});
@@ -187,10 +178,10 @@ TEST(TubePipeline, AltersAlikeWhateverFilesAreAskedFor) {
 
 TEST(TubePipeline, TellsWhereTheAlteredGarmentRests) {
   const AlterResult result = alter_tube("tube-14-100", "tube-18-100");
-  AlterOptions options = small();
+  AlterOptions options = test::small_job();
   options.outputs = {"result.json"};
   const BodyInput body{.name = "builtin:tube-14-100", .bytes = {}};
-  const auto files = alter_outputs(result, options, job_info(tube_skirt(), body, body));
+  const auto files = alter_outputs(result, options, job_info(test::tube_skirt(), body, body));
   const std::string told(files.back().bytes.begin(), files.back().bytes.end());
   EXPECT_NE(told.find("\"altered_place\": {"), std::string::npos);
   const Record place = place_record(result.place);
@@ -220,8 +211,8 @@ TEST(TubePipeline, ReportsProgressThatNeverFallsAndEndsAtOne) {
       last = fraction;
     };
     StageRunner runner(nullptr, &progress, kAlterStages, threads);
-    alter_garment(tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
-                  {.name = "builtin:tube-11-100", .bytes = {}}, small(), runner);
+    alter_garment(test::tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
+                  {.name = "builtin:tube-11-100", .bytes = {}}, test::small_job(), runner);
     EXPECT_EQ(last, 1.0);
   }
 }
@@ -233,8 +224,8 @@ TEST(TubePipeline, EndsAtOnceWhenCancelled) {
   progress.report = [&](std::string_view stage, double) { cancelled = stage == "drape_before"; };
   StageRunner runner(nullptr, &progress, kAlterStages);
   try {
-    alter_garment(tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
-                  {.name = "builtin:tube-18-100", .bytes = {}}, small(), runner);
+    alter_garment(test::tube_skirt(), {.name = "builtin:tube-14-100", .bytes = {}},
+                  {.name = "builtin:tube-18-100", .bytes = {}}, test::small_job(), runner);
     FAIL() << "ran to the end";
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::Cancelled);

@@ -15,8 +15,10 @@ std::filesystem::path shared_data(const std::string& relative);
 bool has_shared_data();
 Bytes read_file(const std::filesystem::path& path);
 
-const std::vector<std::string>& shared_body_names();     // 15, without extension
-const std::vector<std::string>& shared_garment_names();  // 22, without _specification.json
+const std::vector<std::string>& shared_body_names();        // 15, without extension
+const std::vector<std::string>& shared_garment_names();     // 22, without _specification.json
+inline constexpr const char* kWoman = "mh_female_average";  // of each of the two topologies the body that stands for it
+inline constexpr const char* kMean = "ggg_mean_all";
 // The body a garment was drafted for: f_* ggg_mean_female, m_* ggg_mean_male, else ggg_mean_all.
 std::string body_of_garment(const std::string& garment);
 

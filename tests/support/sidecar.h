@@ -9,6 +9,9 @@
 
 namespace toile::test {
 
+// ISO 20685-1, what scanners are held to, m: small girths and heights, large girths.
+inline constexpr double kSmallError = 4e-3, kLargeError = 9e-3;
+
 struct BodySidecar {
   std::map<std::string, double> measurements;  // "waist", "hips", "bust_at_bust_points", ... m
   std::map<std::string, double> levels;        // m

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/core/body.h"
+#include "engine/geometry/half_edges.h"
 
 namespace toile::test {
 
@@ -47,6 +48,10 @@ inline TriangleMesh make_sphere(double radius, int rings, int segments, const Ve
     mesh.triangles.row(f++) << south, (rings - 1) * segments + t, (rings - 1) * segments + s;
   }
   return mesh;
+}
+
+inline bool is_closed(const TriangleMesh& mesh) {
+  return find_defects(mesh.vertex_count(), mesh.triangles).none();
 }
 
 inline double volume_of(const TriangleMesh& mesh) {

@@ -49,7 +49,8 @@ constexpr double kBottom = 0.8, kCurve = 10.0, kHole = 0.03;  // m, 1/m, m
 double parabola(double z) {
   return kBottom + kCurve * z * z;
 }
-constexpr double kNear = 2e-3;  // m: the slope is that of the last 2 cm, which carries a curved end on a little too far
+constexpr double kNearBottom =
+    2e-3;  // m: the slope is that of the last 2 cm, which carries a curved end on a little too far
 const Vec3 kBridged(0.0, kBottom + 0.005, 0.0);
 
 TEST(CrotchProfile, AParabolaThatIsCutOffGoesOnToItsBottom) {
@@ -58,7 +59,7 @@ TEST(CrotchProfile, AParabolaThatIsCutOffGoesOnToItsBottom) {
   skin.add(kHole, 0.12, parabola);
   const auto found = crotch_by_profile(skin.mesh(), kBridged, kHeight, kHole);
   ASSERT_TRUE(found.has_value());
-  EXPECT_NEAR(*found, kBottom, kNear);
+  EXPECT_NEAR(*found, kBottom, kNearBottom);
 }
 
 TEST(CrotchProfile, TheLowerOfBothEndsTells) {
@@ -66,13 +67,13 @@ TEST(CrotchProfile, TheLowerOfBothEndsTells) {
   Underside skin;
   skin.add(-0.12, -kHole, [](double z) { return parabola(z) - kLower; });
   skin.add(kHole, 0.12, parabola);
-  EXPECT_NEAR(crotch_by_profile(skin.mesh(), kBridged, kHeight, kHole).value(), kBottom - kLower, kNear);
+  EXPECT_NEAR(crotch_by_profile(skin.mesh(), kBridged, kHeight, kHole).value(), kBottom - kLower, kNearBottom);
 }
 
 TEST(CrotchProfile, OneEndIsEnough) {
   Underside skin;
   skin.add(kHole, 0.12, parabola);
-  EXPECT_NEAR(crotch_by_profile(skin.mesh(), kBridged, kHeight, kHole).value(), kBottom, kNear);
+  EXPECT_NEAR(crotch_by_profile(skin.mesh(), kBridged, kHeight, kHole).value(), kBottom, kNearBottom);
 }
 
 // What is left of a web between the thighs lies lower than the trunk and leads nowhere.
@@ -80,7 +81,7 @@ TEST(CrotchProfile, RemnantsThatLeadNowhereAreNotTheTrunk) {
   Underside skin;
   skin.add(-0.12, -kHole, parabola);
   skin.add(-0.01, 0.01, [](double) { return kBottom - 0.03; });
-  EXPECT_NEAR(crotch_by_profile(skin.mesh(), kBridged, kHeight, kHole).value(), kBottom, kNear);
+  EXPECT_NEAR(crotch_by_profile(skin.mesh(), kBridged, kHeight, kHole).value(), kBottom, kNearBottom);
 }
 
 TEST(CrotchProfile, NothingIsToldWhereNoSkinLeadsThere) {

@@ -29,7 +29,7 @@ TriangleMesh cut(const TriangleMesh& mesh, Keep keep) {
   return extract_triangles(mesh, kept);
 }
 
-std::string refusal(const TriangleMesh& mesh) {
+std::string why_not_found(const TriangleMesh& mesh) {
   try {
     find_skeleton(mesh);
   } catch (const Error& error) {
@@ -107,13 +107,13 @@ TEST(FindSkeleton, StandsHolesAndNoise) {
 TEST(FindSkeleton, RefusesABodyWithoutHead) {
   TOILE_REQUIRE_SHARED_DATA();
   const TriangleMesh whole = load_shared_body("mh_male_average").surface;
-  EXPECT_FALSE(refusal(cut(whole, [](const Vec3& p) { return p.y() < 1.46; })).empty());
+  EXPECT_FALSE(why_not_found(cut(whole, [](const Vec3& p) { return p.y() < 1.46; })).empty());
 }
 
 TEST(FindSkeleton, RefusesABodyWithOneArm) {
   TOILE_REQUIRE_SHARED_DATA();
   const TriangleMesh whole = load_shared_body("mh_female_average").surface;
-  EXPECT_NE(refusal(cut(whole, [](const Vec3& p) { return p.x() < 0.24; })).find("arm"), std::string::npos);
+  EXPECT_NE(why_not_found(cut(whole, [](const Vec3& p) { return p.x() < 0.24; })).find("arm"), std::string::npos);
 }
 
 TEST(FindSkeleton, RefusesHalfABodyAndOneUpsideDown) {
@@ -121,9 +121,9 @@ TEST(FindSkeleton, RefusesHalfABodyAndOneUpsideDown) {
   TriangleMesh body = load_shared_body("mh_female_average").surface;
   TriangleMesh upper = cut(body, [](const Vec3& p) { return p.y() > 0.8; });
   upper.vertices.col(1).array() -= upper.vertices.col(1).minCoeff();
-  EXPECT_FALSE(refusal(upper).empty());
+  EXPECT_FALSE(why_not_found(upper).empty());
   body.vertices.col(1) = body.vertices.col(1).maxCoeff() - body.vertices.col(1).array();
-  EXPECT_FALSE(refusal(body).empty());
+  EXPECT_FALSE(why_not_found(body).empty());
 }
 
 }  // namespace

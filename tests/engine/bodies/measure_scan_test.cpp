@@ -16,11 +16,12 @@ namespace toile {
 namespace {
 
 // ISO 20685-1: what scanners are held to. Metres.
-constexpr double kSmall = 4e-3, kLarge = 9e-3;
 constexpr const char* kLargeGirths[] = {"bust_girth",  "underbust_girth", "chest_girth",
                                         "waist_girth", "belly_girth",     "hip_girth"};
 double tolerance(const std::string& name) {
-  return std::find(std::begin(kLargeGirths), std::end(kLargeGirths), name) != std::end(kLargeGirths) ? kLarge : kSmall;
+  return std::find(std::begin(kLargeGirths), std::end(kLargeGirths), name) != std::end(kLargeGirths)
+             ? test::kLargeError
+             : test::kSmallError;
 }
 
 class SlowMeasureScan : public testing::TestWithParam<const char*> {};

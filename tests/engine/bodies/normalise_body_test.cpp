@@ -45,7 +45,7 @@ double largest_move(const TriangleMesh& a, const TriangleMesh& b) {
   return (a.vertices - b.vertices).rowwise().norm().maxCoeff();
 }
 
-ErrorCode refusal(const TriangleMesh& mesh, std::string* message = nullptr) {
+ErrorCode refused_with(const TriangleMesh& mesh, std::string* message = nullptr) {
   try {
     normalise_body(mesh);
   } catch (const Error& error) {
@@ -155,16 +155,16 @@ TEST(NormaliseBody, ReadsAnAdultInInches) {
 
 TEST(NormaliseBody, RefusesWhatIsNoPerson) {
   std::string message;
-  EXPECT_EQ(refusal(box(Vec3(1.7, 1.7, 1.7)), &message), ErrorCode::BodyNotRecognised);
+  EXPECT_EQ(refused_with(box(Vec3(1.7, 1.7, 1.7)), &message), ErrorCode::BodyNotRecognised);
   EXPECT_NE(message.find("score"), std::string::npos);
-  EXPECT_EQ(refusal(TriangleMesh{Points3(0, 3), Triangles(0, 3)}), ErrorCode::BodyUnusable);
+  EXPECT_EQ(refused_with(TriangleMesh{Points3(0, 3), Triangles(0, 3)}), ErrorCode::BodyUnusable);
 }
 
 TEST(NormaliseBody, RefusesASixCentimetreBody) {
   TOILE_REQUIRE_SHARED_DATA();
   std::string message;
   const TriangleMesh body = load_shared_body("mh_female_average").surface;
-  EXPECT_EQ(refusal(moved(body, Mat3::Identity(), 0.04, Vec3::Zero()), &message), ErrorCode::BodyUnusable);
+  EXPECT_EQ(refused_with(moved(body, Mat3::Identity(), 0.04, Vec3::Zero()), &message), ErrorCode::BodyUnusable);
   EXPECT_NE(message.find("unit"), std::string::npos);
 }
 
@@ -190,7 +190,7 @@ TEST(NormaliseBody, RefusesTwoPeople) {
   two.triangles.resize(a.triangle_count() + b.triangle_count(), 3);
   two.triangles << a.triangles, (b.triangles.array() + a.vertex_count()).matrix();
   std::string message;
-  EXPECT_EQ(refusal(two, &message), ErrorCode::BodyNotRecognised);
+  EXPECT_EQ(refused_with(two, &message), ErrorCode::BodyNotRecognised);
   EXPECT_NE(message.find("one person"), std::string::npos);
 }
 

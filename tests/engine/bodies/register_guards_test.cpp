@@ -17,9 +17,6 @@
 namespace toile {
 namespace {
 
-constexpr const char* kWoman = "mh_female_average";
-constexpr const char* kMean = "ggg_mean_all";
-
 using test::reference;
 
 template <class Keep>
@@ -32,7 +29,7 @@ TriangleMesh kept(const TriangleMesh& mesh, Keep keep) {
 }
 
 // The reason of the refusal; empty where a map came out.
-std::string refusal(const TriangleMesh& file, const char* from = kMean) {
+std::string why_not_registered(const TriangleMesh& file, const char* from = test::kMean) {
   try {
     const ImportBodyResult target = import_body(file, "target");
     register_bodies(reference(from), without_patches(target.body, target.repairs.added_triangles()));
@@ -45,51 +42,51 @@ std::string refusal(const TriangleMesh& file, const char* from = kMean) {
   return {};
 }
 
-TriangleMesh woman() {
-  return test::load_shared_body(kWoman).surface;
+TriangleMesh average_woman() {
+  return test::load_shared_body(test::kWoman).surface;
 }
 
 TEST(RegisterGuards, ABodyWithoutHeadIsRefused) {
   TOILE_REQUIRE_SHARED_DATA();
-  const TriangleMesh body = woman();
+  const TriangleMesh body = average_woman();
   const double top = 0.86 * body.vertices.col(1).maxCoeff();
-  EXPECT_NE(refusal(kept(body, [&](const Vec3& p) { return p.y() < top; })), "");
+  EXPECT_NE(why_not_registered(kept(body, [&](const Vec3& p) { return p.y() < top; })), "");
 }
 
 TEST(RegisterGuards, ABodyWithOneArmIsRefused) {
   TOILE_REQUIRE_SHARED_DATA();
   for (const double cut : {0.22, 0.40})  // at the upper arm, at the forearm
-    EXPECT_NE(refusal(kept(woman(), [&](const Vec3& p) { return p.x() < cut; })), "") << cut;
+    EXPECT_NE(why_not_registered(kept(average_woman(), [&](const Vec3& p) { return p.x() < cut; })), "") << cut;
 }
 
 TEST(RegisterGuards, HalfABodyIsRefused) {
   TOILE_REQUIRE_SHARED_DATA();
-  EXPECT_NE(refusal(kept(woman(), [](const Vec3& p) { return p.y() > 0.8; })), "");
-  EXPECT_NE(refusal(kept(woman(), [](const Vec3& p) { return p.y() < 0.9; })), "");
-  EXPECT_NE(refusal(kept(woman(), [](const Vec3& p) { return p.x() > 0.0; })), "");
+  EXPECT_NE(why_not_registered(kept(average_woman(), [](const Vec3& p) { return p.y() > 0.8; })), "");
+  EXPECT_NE(why_not_registered(kept(average_woman(), [](const Vec3& p) { return p.y() < 0.9; })), "");
+  EXPECT_NE(why_not_registered(kept(average_woman(), [](const Vec3& p) { return p.x() > 0.0; })), "");
 }
 
 TEST(RegisterGuards, TwoPeopleAreRefused) {
   TOILE_REQUIRE_SHARED_DATA();
-  const TriangleMesh one = woman();
+  const TriangleMesh one = average_woman();
   TriangleMesh two = one;
   two.vertices.resize(2 * one.vertex_count(), 3);
   two.vertices << one.vertices, one.vertices.rowwise() + Eigen::RowVector3d(1.3, 0, 0);
   two.triangles.resize(2 * one.triangle_count(), 3);
   two.triangles << one.triangles, (one.triangles.array() + one.vertex_count()).matrix();
-  EXPECT_THAT(refusal(two), testing::HasSubstr("one"));
+  EXPECT_THAT(why_not_registered(two), testing::HasSubstr("one"));
 }
 
 TEST(RegisterGuards, ACubeIsRefused) {
   TOILE_REQUIRE_SHARED_DATA();
-  EXPECT_NE(refusal(test::make_box(Vec3::Zero(), Vec3::Constant(1.7))), "");
+  EXPECT_NE(why_not_registered(test::make_box(Vec3::Zero(), Vec3::Constant(1.7))), "");
 }
 
 TEST(RegisterGuards, ASittingPersonIsRefused) {
   TOILE_REQUIRE_SHARED_DATA();
-  TriangleMesh body = woman();
+  TriangleMesh body = average_woman();
   body.vertices = test::posed(body, {.arms = 0, .forearms = 0, .feet_apart = 0, .hips = 85, .knees = 85});
-  EXPECT_NE(refusal(body, kWoman), "");
+  EXPECT_NE(why_not_registered(body, test::kWoman), "");
 }
 
 // Lying on its back or standing on its head in the file, a body is put right, and the map is no worse for it.
@@ -100,7 +97,7 @@ TEST(RegisterGuards, LyingAndUpsideDownBodiesArePutRight) {
     TriangleMesh file = body;
     file.vertices = body.vertices * turn_upright(up);
     const ImportBodyResult target = import_body(file, "target");
-    const RegisterBodiesResult result = register_bodies(reference(kWoman), target.body);
+    const RegisterBodiesResult result = register_bodies(reference(test::kWoman), target.body);
     std::vector<double> error;
     for (Eigen::Index v = 0; v < body.vertices.rows(); ++v)
       error.push_back((result.map.mapped.row(v) - target.body.surface.vertices.row(v)).norm());
@@ -132,15 +129,15 @@ TEST_P(SlowRegisterVariants, StaysNearTheGatesOfTheSharedScans) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Bodies, SlowRegisterVariants,
-                         testing::Values(Variant{kMean, "ggg_mean_female", 101, 13, 26},
-                                         Variant{kMean, "ggg_large_male", 102, 13, 26},
-                                         Variant{kWoman, "mh_female_heavy_short", 103, 15.6, 39},
-                                         Variant{kWoman, "mh_child_8y", 104, 15.6, 39},
-                                         Variant{kWoman, "mh_female_thin_tall", 37, 15.6, 39},
-                                         Variant{kWoman, "mh_female_heavy_tall", 32, 15.6, 39},
-                                         Variant{kWoman, "mh_male_average", 105, 20.8, 58.5, 33.8},
-                                         Variant{kWoman, "mh_male_old_heavy", 37, 20.8, 58.5, 33.8},
-                                         Variant{kWoman, "mh_male_old_heavy", 38, 20.8, 58.5, 33.8}));
+                         testing::Values(Variant{test::kMean, "ggg_mean_female", 101, 13, 26},
+                                         Variant{test::kMean, "ggg_large_male", 102, 13, 26},
+                                         Variant{test::kWoman, "mh_female_heavy_short", 103, 15.6, 39},
+                                         Variant{test::kWoman, "mh_child_8y", 104, 15.6, 39},
+                                         Variant{test::kWoman, "mh_female_thin_tall", 37, 15.6, 39},
+                                         Variant{test::kWoman, "mh_female_heavy_tall", 32, 15.6, 39},
+                                         Variant{test::kWoman, "mh_male_average", 105, 20.8, 58.5, 33.8},
+                                         Variant{test::kWoman, "mh_male_old_heavy", 37, 20.8, 58.5, 33.8},
+                                         Variant{test::kWoman, "mh_male_old_heavy", 38, 20.8, 58.5, 33.8}));
 
 }  // namespace
 }  // namespace toile

@@ -40,13 +40,9 @@ TriangleMesh soup_of(const TriangleMesh& mesh) {
   return soup;
 }
 
-bool is_closed(const TriangleMesh& mesh) {
-  return find_defects(mesh.vertex_count(), mesh.triangles).none();
-}
-
 TEST(CleanMesh, ACleanSurfaceComesBackUnchanged) {
   const TriangleMesh sphere = make_sphere(1, 12, 20);
-  ASSERT_TRUE(is_closed(sphere));
+  ASSERT_TRUE(test::is_closed(sphere));
   TriangleMesh mesh = sphere;
   const CleanMeshReport report = clean_mesh(mesh);
   EXPECT_EQ(mesh.vertices, sphere.vertices);
@@ -61,7 +57,7 @@ TEST(CleanMesh, ATriangleSoupIsWelded) {
   EXPECT_EQ(report.welded_vertices, 3 * sphere.triangle_count() - sphere.vertex_count());
   EXPECT_EQ(report.unused_vertices, 0);
   EXPECT_EQ(mesh.vertex_count(), sphere.vertex_count());
-  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_TRUE(test::is_closed(mesh));
 }
 
 TEST(CleanMesh, TouchingPointsOfAClosedSurfaceAreNotWelded) {
@@ -87,7 +83,7 @@ TEST(CleanMesh, StrayTrianglesGoHoweverLargeTheyAre) {
   add_triangle(mesh, 25, 101, 190);
   const CleanMeshReport report = clean_mesh(mesh);
   EXPECT_EQ(report.pinched_triangles, 2);
-  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_TRUE(test::is_closed(mesh));
   EXPECT_EQ(mesh.triangles, sphere.triangles);
 }
 
@@ -138,7 +134,7 @@ TEST(CleanMesh, MixedOrientationIsMadeToAgreeAndOutward) {
   for (int f = 0; f < mesh.triangle_count(); f += 3) std::swap(mesh.triangles(f, 0), mesh.triangles(f, 1));
   const CleanMeshReport report = clean_mesh(mesh);
   EXPECT_EQ(report.flipped_triangles, (sphere.triangle_count() + 2) / 3);
-  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_TRUE(test::is_closed(mesh));
   EXPECT_NEAR(test::volume_of(mesh), test::volume_of(sphere), 1e-12);
 
   for (int f = 0; f < mesh.triangle_count(); ++f) std::swap(mesh.triangles(f, 0), mesh.triangles(f, 1));
@@ -154,7 +150,7 @@ TEST(CleanMesh, ASharedPointOfTwoSheetsIsSplit) {
   const CleanMeshReport report = clean_mesh(mesh);
   EXPECT_EQ(report.split_vertices, 1);
   EXPECT_EQ(report.unused_vertices, 1);
-  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_TRUE(test::is_closed(mesh));
 }
 
 TEST(CleanMesh, AFlapThatHangsByAPointAtARimGoes) {
@@ -208,12 +204,12 @@ TEST(CleanMesh, SliversAreCollapsedOrFlippedWithoutOpeningTheSurface) {
   mesh.triangles.row(50) << t[0], m, t[2];
   add_triangle(mesh, m, t[1], t[2]);
   add_triangle(mesh, t[0], t[1], m);
-  ASSERT_TRUE(is_closed(mesh));
+  ASSERT_TRUE(test::is_closed(mesh));
   // And a vertex that all but coincides with its neighbour (needles).
   mesh.vertices.row(100) = mesh.vertices.row(101) * (1 - 1e-9);
   const CleanMeshReport report = clean_mesh(mesh);
   EXPECT_GE(report.slivers, 2);
-  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_TRUE(test::is_closed(mesh));
   EXPECT_NEAR(test::volume_of(mesh), volume, 0.01 * volume);
   TriangleMesh again = mesh;
   EXPECT_EQ(clean_mesh(again).slivers, 0);
@@ -227,7 +223,7 @@ TEST(CleanMesh, SharedBodiesNeedNothing) {
     clean_mesh(mesh);
     EXPECT_EQ(mesh.vertices, given.vertices) << name;
     EXPECT_EQ(mesh.triangles, given.triangles) << name;
-    EXPECT_TRUE(is_closed(mesh)) << name;
+    EXPECT_TRUE(test::is_closed(mesh)) << name;
   }
 }
 

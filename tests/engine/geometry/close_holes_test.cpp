@@ -37,10 +37,6 @@ TriangleMesh without(const TriangleMesh& mesh, Inside inside) {
   });
 }
 
-bool is_closed(const TriangleMesh& mesh) {
-  return find_defects(mesh.vertex_count(), mesh.triangles).none();
-}
-
 TEST(CloseHoles, ACapCutFromASphereGrowsBackRound) {
   const double radius = 0.1;
   const TriangleMesh sphere = make_sphere(radius, 60, 90);
@@ -49,7 +45,7 @@ TEST(CloseHoles, ACapCutFromASphereGrowsBackRound) {
   const auto holes = close_holes(mesh);
   ASSERT_EQ(holes.size(), 1u);
   EXPECT_GT(holes[0].added_vertices, 50);
-  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_TRUE(test::is_closed(mesh));
   double worst = 0;
   for (int v = before; v < mesh.vertex_count(); ++v)
     worst = std::max(worst, std::abs(mesh.vertices.row(v).norm() - radius));
@@ -82,7 +78,7 @@ TEST(CloseHoles, NothingNewComesBelowTheFloor) {
   ASSERT_LT(round.vertices.col(1).minCoeff(), floor - 1e-3);
   close_holes(mesh, {.lowest_y = floor});
   EXPECT_EQ(mesh.vertices.col(1).minCoeff(), floor);
-  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_TRUE(test::is_closed(mesh));
 }
 
 TEST(CloseHoles, LongLoopsAndSeveralHolesAreClosedToo) {
@@ -92,7 +88,7 @@ TEST(CloseHoles, LongLoopsAndSeveralHolesAreClosedToo) {
   const auto holes = close_holes(mesh);
   ASSERT_EQ(holes.size(), 2u);
   EXPECT_GE(std::max(holes[0].edges, holes[1].edges), 300);
-  EXPECT_TRUE(is_closed(mesh));
+  EXPECT_TRUE(test::is_closed(mesh));
 }
 
 TEST(CloseHoles, EverySmallHoleOfABoxCanBeClosed) {
@@ -101,7 +97,7 @@ TEST(CloseHoles, EverySmallHoleOfABoxCanBeClosed) {
     if (__builtin_popcount(static_cast<unsigned>(mask)) > 4) continue;
     TriangleMesh mesh = without_triangles(box, [&](int f) { return mask >> f & 1; });
     close_holes(mesh);
-    EXPECT_TRUE(is_closed(mesh)) << mask;
+    EXPECT_TRUE(test::is_closed(mesh)) << mask;
   }
 }
 
@@ -122,11 +118,11 @@ TEST(CloseHoles, ScansComeOutClosedManifoldAndOriented) {
   TOILE_REQUIRE_SHARED_DATA();
   for (const char* name : {"scan_a", "scan_b", "scan_c", "scan_d"}) {
     TriangleMesh mesh = test::load_shared_scan(name);
-    ASSERT_FALSE(is_closed(mesh)) << name;
+    ASSERT_FALSE(test::is_closed(mesh)) << name;
     clean_mesh(mesh);
     EXPECT_GE(close_holes(mesh).size(), 7u) << name;
     orient_outward(mesh);
-    EXPECT_TRUE(is_closed(mesh)) << name;
+    EXPECT_TRUE(test::is_closed(mesh)) << name;
     EXPECT_GT(test::volume_of(mesh), 0) << name;
   }
 }

@@ -11,7 +11,7 @@
 namespace toile {
 namespace {
 
-constexpr double kRounding = 1e-12;
+constexpr double kAreaRounding = 1e-12;
 
 double total_area(const std::vector<std::vector<Vec2>>& parts) {
   double sum = 0.0;
@@ -28,7 +28,7 @@ TEST(SplitPolygon, MakesTwoStripsOfAnL) {
   const std::vector<Vec2> l = {{0, 0}, {0.4, 0}, {0.4, 0.6}, {0.32, 0.6}, {0.32, 0.05}, {0, 0.05}};
   const auto parts = split_at_reflex_corners(l);
   ASSERT_EQ(parts.size(), 2u);
-  EXPECT_NEAR(total_area(parts), signed_area(l), kRounding);
+  EXPECT_NEAR(total_area(parts), signed_area(l), kAreaRounding);
   EXPECT_TRUE(std::all_of(parts.begin(), parts.end(), [](const auto& part) { return is_simple_polygon(part); }));
 }
 
@@ -37,7 +37,7 @@ TEST(SplitPolygon, MakesTwoStripsOfAT) {
                                {0.4, 0.3}, {0.05, 0.3}, {0.05, 0.6}, {0, 0.6}};
   const auto parts = split_at_reflex_corners(t);
   EXPECT_EQ(parts.size(), 2u);
-  EXPECT_NEAR(total_area(parts), signed_area(t), kRounding);
+  EXPECT_NEAR(total_area(parts), signed_area(t), kAreaRounding);
 }
 
 TEST(SplitPolygon, LeavesACurvedStripWhole) {

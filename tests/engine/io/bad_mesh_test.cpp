@@ -8,15 +8,12 @@
 
 #include "engine/core/error.h"
 #include "engine/io/mesh_file.h"
+#include "tests/support/text_bytes.h"
 
 namespace toile {
 namespace {
 
 using ::testing::HasSubstr;
-
-Bytes bytes_of(std::string_view text) {
-  return Bytes(text.begin(), text.end());
-}
 
 std::string ply(const std::string& encoding, const std::string& vertices, const std::string& faces,
                 const std::string& body, const std::string& list = "list uchar int vertex_indices") {
@@ -159,7 +156,7 @@ TEST(BadMesh, EveryBrokenFileIsRefusedWithPlaceAndMend) {
   for (const Bad& bad : bad_files()) {
     const std::string name = std::string(bad.what).substr(0, 3) == "STL" ? "input.stl" : "input.bin";
     try {
-      read_mesh(bytes_of(bad.text), name);
+      read_mesh(test::bytes_of(bad.text), name);
       ADD_FAILURE() << bad.what << " was read";
     } catch (const Error& error) {
       EXPECT_EQ(error.code, bad.code) << bad.what << ": " << error.message;
@@ -197,7 +194,7 @@ TEST(BadMesh, LimitsHoldForFilesThatDoNotAnnounceTheirSize) {
   const MeshLimits limits{.bytes = 1000, .vertices = 3, .triangles = 2};
   const auto code = [&](const std::string& text) {
     try {
-      read_mesh(bytes_of(text), "a.obj", limits);
+      read_mesh(test::bytes_of(text), "a.obj", limits);
     } catch (const Error& error) {
       return error.code;
     }
@@ -213,7 +210,7 @@ TEST(BadMesh, OneFaceOfMillionsOfCornersIsRefusedQuickly) {
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
   for (int i = 0; i < 8'000'000; ++i) text += " 1";
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_THROW(read_mesh(bytes_of(text), "a.obj"), Error);
+  EXPECT_THROW(read_mesh(test::bytes_of(text), "a.obj"), Error);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 

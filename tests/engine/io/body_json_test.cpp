@@ -7,15 +7,12 @@
 #include "engine/core/error.h"
 #include "engine/io/json.h"
 #include "engine/io/record_json.h"
+#include "tests/support/text_bytes.h"
 
 namespace toile {
 namespace {
 
 using ::testing::HasSubstr;
-
-Bytes bytes_of(std::string_view text) {
-  return Bytes(text.begin(), text.end());
-}
 
 TEST(BodyJson, ABodyIsDescribedWithItsTransformInRows) {
   Body body;
@@ -31,23 +28,23 @@ TEST(BodyJson, ABodyIsDescribedWithItsTransformInRows) {
 }
 
 TEST(BodyJson, LandmarksInTheFilesFrameFollowTheBody) {
-  const GivenLandmarks given = read_landmarks(bytes_of(R"({"landmarks": {"crotch": [0, 80, 1]}})"), "l.json");
+  const GivenLandmarks given = read_landmarks(test::bytes_of(R"({"landmarks": {"crotch": [0, 80, 1]}})"), "l.json");
   ASSERT_TRUE(given.in_file_frame);
   Mat4 transform = Mat4::Identity();
   transform.topLeftCorner<3, 3>() *= 0.01;
   transform(1, 3) = 0.005;
   EXPECT_TRUE(normalised_landmarks(given, transform).at("crotch").isApprox(Vec3(0, 0.805, 0.01)));
-  const GivenLandmarks ours = read_landmarks(bytes_of(R"({"landmarks_m": {"crotch": [0, 0.8, 0]}})"), "l.json");
+  const GivenLandmarks ours = read_landmarks(test::bytes_of(R"({"landmarks_m": {"crotch": [0, 0.8, 0]}})"), "l.json");
   EXPECT_EQ(normalised_landmarks(ours, transform).at("crotch"), Vec3(0, 0.8, 0));
 }
 
 TEST(BodyJson, MeasurementsComeInCentimetresOrMetres) {
-  const Bytes text = bytes_of(" {\"figure\": \"woman\", \"measurements_cm\": {\"height\": 168}}");
+  const Bytes text = test::bytes_of(" {\"figure\": \"woman\", \"measurements_cm\": {\"height\": 168}}");
   EXPECT_TRUE(looks_like_json(text));
-  EXPECT_FALSE(looks_like_json(bytes_of("v 0 0 0\n")));
+  EXPECT_FALSE(looks_like_json(test::bytes_of("v 0 0 0\n")));
   EXPECT_DOUBLE_EQ(read_measurements(text, "m").measurements.at("height"), 1.68);
   EXPECT_EQ(read_measurements(text, "m").figure, "woman");
-  const MeasurementsDocument metres = read_measurements(bytes_of(R"({"measurements_m": {"height": 1.7}})"), "m");
+  const MeasurementsDocument metres = read_measurements(test::bytes_of(R"({"measurements_m": {"height": 1.7}})"), "m");
   EXPECT_DOUBLE_EQ(metres.measurements.at("height"), 1.7);
   EXPECT_EQ(metres.figure, "");
 }
@@ -61,7 +58,7 @@ TEST(BodyJson, BadDocumentsAreRefusedWithFileAndPointer) {
       {R"({"landmarks": )", ""}};
   for (const auto& [text, place] : bad) {
     try {
-      read_landmarks(bytes_of(text), "l.json");
+      read_landmarks(test::bytes_of(text), "l.json");
       ADD_FAILURE() << text;
     } catch (const Error& error) {
       EXPECT_EQ(error.code, ErrorCode::FileMalformed) << text;
@@ -69,8 +66,8 @@ TEST(BodyJson, BadDocumentsAreRefusedWithFileAndPointer) {
       EXPECT_THAT(error.message, HasSubstr(place)) << text;
     }
   }
-  EXPECT_THROW(read_measurements(bytes_of(R"({"measurements_cm": {"height": -1}})"), "m"), Error);
-  EXPECT_THROW(read_measurements(bytes_of(R"({"measurements_m": {"height": 168}})"), "m"), Error);
+  EXPECT_THROW(read_measurements(test::bytes_of(R"({"measurements_cm": {"height": -1}})"), "m"), Error);
+  EXPECT_THROW(read_measurements(test::bytes_of(R"({"measurements_m": {"height": 168}})"), "m"), Error);
 }
 
 }  // namespace

@@ -8,26 +8,19 @@
 #include "engine/io/schema_check.h"
 #include "engine/io/ticket_document.h"
 #include "tests/support/sample_ticket.h"
+#include "tests/support/text_bytes.h"
 
 namespace toile {
 namespace {
-
-std::string text_of(const Bytes& bytes) {
-  return {bytes.begin(), bytes.end()};
-}
-
-int count(const std::string& text, const std::string& what) {
-  int n = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) ++n;
-  return n;
-}
 
 // Every element that needs it is closed.
 void expect_balanced(const std::string& html) {
   for (const std::string tag :
        {"html", "head", "body", "ol", "ul", "li",     "div",        "span",    "table", "thead", "tbody",
         "tr",   "td",   "dl",   "dt", "dd", "figure", "figcaption", "details", "svg",   "h2"})
-    EXPECT_EQ(count(html, "<" + tag + ">") + count(html, "<" + tag + " "), count(html, "</" + tag + ">")) << tag;
+    EXPECT_EQ(test::count_of(html, "<" + tag + ">") + test::count_of(html, "<" + tag + " "),
+              test::count_of(html, "</" + tag + ">"))
+        << tag;
 }
 
 TEST(Base64, MatchesTheVectorsOfItsStandard) {
@@ -73,28 +66,28 @@ TEST(TicketDocument, JsonAgreesWithItsSchemaAndAWrongOneDoesNot) {
 }
 
 TEST(TicketDocument, EdgesAreWholeNumbers) {
-  const std::string json = text_of(write_json(ticket_record(test::sample_ticket())));
+  const std::string json = test::text_of(write_json(ticket_record(test::sample_ticket())));
   const std::size_t edges = json.find("\"edges\"");
   ASSERT_NE(edges, std::string::npos);
   EXPECT_EQ(json.substr(edges, json.find(']', edges) - edges).find('.'), std::string::npos);
 }
 
 TEST(TicketDocument, ThePageSaysEverySentenceOnceAndEscapesNames) {
-  const std::string html = text_of(write_ticket_html(test::sample_ticket(), {}, "2026-01-31"));
+  const std::string html = test::text_of(write_ticket_html(test::sample_ticket(), {}, "2026-01-31"));
   for (const TicketOperation& operation : test::sample_ticket().operations)
-    EXPECT_EQ(count(html, operation.sentence), 1);
+    EXPECT_EQ(test::count_of(html, operation.sentence), 1);
   EXPECT_NE(html.find("hem &lt;front&gt; &amp; back"), std::string::npos);
   EXPECT_NE(html.find("25 mm short"), std::string::npos);
   EXPECT_NE(html.find("needs new fabric"), std::string::npos);
   EXPECT_NE(html.find("insertion_1"), std::string::npos);
-  EXPECT_EQ(count(html, "class=\"profile\""), 3);
+  EXPECT_EQ(test::count_of(html, "class=\"profile\""), 3);
   expect_balanced(html);
 }
 
 TEST(TicketDocument, WithoutOperationsItSaysThatNothingIsToBeDone) {
   Ticket ticket;
   ticket.garment = "shirt";
-  EXPECT_NE(text_of(write_ticket_html(ticket)).find("Nothing to alter"), std::string::npos);
+  EXPECT_NE(test::text_of(write_ticket_html(ticket)).find("Nothing to alter"), std::string::npos);
 }
 
 TEST(Report, IsOneSelfContainedPage) {
@@ -108,8 +101,8 @@ TEST(Report, IsOneSelfContainedPage) {
   report.quality = {{"Drapes", {"", "before"}, {{"stretch error", "1.23 %"}}}};
   report.findings = {"panel front: 4 % stretch is left"};
   report.options.add("preset", "standard");
-  const std::string html = text_of(write_report_html(report));
-  EXPECT_EQ(count(html, "data:image/png;base64,"), 2);
+  const std::string html = test::text_of(write_report_html(report));
+  EXPECT_EQ(test::count_of(html, "data:image/png;base64,"), 2);
   EXPECT_EQ(html.find("src=\"http"), std::string::npos);
   EXPECT_EQ(html.find("<script"), std::string::npos);
   EXPECT_EQ(html.find("<link"), std::string::npos);
@@ -125,7 +118,7 @@ TEST(Report, IsOneSelfContainedPage) {
 TEST(Report, SectionsWithoutContentAreLeftOut) {
   Report report;
   report.title = "empty";
-  EXPECT_EQ(count(text_of(write_report_html(report)), "<h2>"), 0);
+  EXPECT_EQ(test::count_of(test::text_of(write_report_html(report)), "<h2>"), 0);
 }
 
 }  // namespace

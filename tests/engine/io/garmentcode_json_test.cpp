@@ -9,13 +9,10 @@
 #include "engine/core/units.h"
 #include "engine/geometry/curve.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/text_bytes.h"
 
 namespace toile {
 namespace {
-
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 const char* const kSquarePair = R"({
  "pattern": { "panels": {
@@ -38,7 +35,7 @@ const char* const kSquarePair = R"({
    "pins": [{"panel":"b","edge":0}], "symmetry_plane": [1,0,0,5] } })";
 
 TEST(GarmentCodeJson, ReadsPanelsInTheirOrderWithMetresAndEveryKindOfCurve) {
-  const Pattern pattern = read_garmentcode(bytes_of(kSquarePair));
+  const Pattern pattern = read_garmentcode(test::bytes_of(kSquarePair));
   ASSERT_EQ(pattern.panels.size(), 2u);
   const Panel& b = pattern.panels[0];
   EXPECT_EQ(b.name, "b");
@@ -61,13 +58,13 @@ TEST(GarmentCodeJson, ReadsPanelsInTheirOrderWithMetresAndEveryKindOfCurve) {
 TEST(GarmentCodeJson, TurnsAboutWorldXThenYThenZ) {
   std::string text = kSquarePair;
   text.replace(text.find("[0, 0, 90]"), 10, "[90,90,0]");
-  const Pattern pattern = read_garmentcode(bytes_of(text));
+  const Pattern pattern = read_garmentcode(test::bytes_of(text));
   // +y turned by 90 degrees about X is +z, which 90 degrees about Y takes to +x.
   EXPECT_NEAR((pattern.panels[0].rotation * Vec3(0, 1, 0) - Vec3(1, 0, 0)).norm(), 0, 1e-15);
 }
 
 TEST(GarmentCodeJson, ReadsTheToileBlock) {
-  const Pattern pattern = read_garmentcode(bytes_of(kSquarePair));
+  const Pattern pattern = read_garmentcode(test::bytes_of(kSquarePair));
   const Panel& a = pattern.panels[1];
   EXPECT_EQ(pattern.name, "sample");
   EXPECT_EQ(pattern.fabric.weft_stiffness, 500);
@@ -119,9 +116,9 @@ void expect_equal(const Pattern& a, const Pattern& b) {
 }
 
 TEST(GarmentCodeJson, WritesWhatItReads) {
-  const Pattern pattern = read_garmentcode(bytes_of(kSquarePair));
+  const Pattern pattern = read_garmentcode(test::bytes_of(kSquarePair));
   const std::string text = write_garmentcode(pattern);
-  const Pattern again = read_garmentcode(bytes_of(text));
+  const Pattern again = read_garmentcode(test::bytes_of(text));
   expect_equal(pattern, again);
   EXPECT_EQ(again.panels[1].grainline.has_value(), true);
   EXPECT_EQ(again.symmetry, Pattern::Symmetry::Plane);
@@ -134,8 +131,8 @@ TEST(GarmentCodeJson, EveryTurnSurvivesTheRoundTrip) {
   for (const char* angles : {"[30,40,50]", "[-170,20,10]", "[10,90,0]", "[25,-90,0]", "[25,90,40]", "[0,180,0]"}) {
     std::string text = kSquarePair;
     text.replace(text.find("[0, 0, 90]"), 10, angles);
-    const Pattern pattern = read_garmentcode(bytes_of(text));
-    const Pattern again = read_garmentcode(bytes_of(write_garmentcode(pattern)));
+    const Pattern pattern = read_garmentcode(test::bytes_of(text));
+    const Pattern again = read_garmentcode(test::bytes_of(write_garmentcode(pattern)));
     EXPECT_LT((pattern.panels[0].rotation - again.panels[0].rotation).norm(), 1e-7) << angles;
   }
 }
@@ -148,7 +145,7 @@ TEST(GarmentCodeJson, RoundTripsEverySharedGarment) {
         read_garmentcode(test::read_file(test::shared_data("garments/" + name + "_specification.json")));
     ASSERT_FALSE(pattern.panels.empty());
     const std::string text = write_garmentcode(pattern);
-    expect_equal(pattern, read_garmentcode(bytes_of(text)));
+    expect_equal(pattern, read_garmentcode(test::bytes_of(text)));
     EXPECT_EQ(text, write_garmentcode(pattern));
   }
 }
@@ -192,7 +189,7 @@ TEST(GarmentCodeJson, RefusesBadInputNamingThePlace) {
     ASSERT_NE(at, std::string::npos);
     text.replace(at, std::string(bad.from).size(), bad.to);
     try {
-      read_garmentcode(bytes_of(text));
+      read_garmentcode(test::bytes_of(text));
       ADD_FAILURE() << "accepted";
     } catch (const Error& error) {
       EXPECT_EQ(error_name(error.code), error_name(bad.code)) << error.what();
@@ -205,7 +202,7 @@ TEST(GarmentCodeJson, RefusesBadInputNamingThePlace) {
 TEST(GarmentCodeJson, RefusesDeepAndHugeDocuments) {
   const auto code_of = [](const std::string& text) {
     try {
-      read_garmentcode(bytes_of(text));
+      read_garmentcode(test::bytes_of(text));
     } catch (const Error& error) {
       return error.code;
     }

@@ -5,13 +5,10 @@
 
 #include "tests/support/shared_body.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/text_bytes.h"
 
 namespace toile {
 namespace {
-
-Bytes bytes_of(std::string_view text) {
-  return Bytes(text.begin(), text.end());
-}
 
 TriangleMesh tetrahedron() {
   TriangleMesh mesh;
@@ -23,9 +20,10 @@ TriangleMesh tetrahedron() {
 }
 
 TEST(MeshFile, ObjReadsFansOfPolygonsSlashFormsNegativeIndicesAndJoinedLines) {
-  const TriangleMesh mesh = read_mesh(bytes_of("# comment\r\nmtllib x.mtl\nv 0 0 0\nv +1 0 0 0.5 0.5 0.5\nv 1 1 0\r\n"
-                                               "v 0 1 0\nvt 0 0\nf 1/1 2//3 3/4/5 \\\n 4\nf -4 -3 -2 # last\n"),
-                                      "quad.obj");
+  const TriangleMesh mesh =
+      read_mesh(test::bytes_of("# comment\r\nmtllib x.mtl\nv 0 0 0\nv +1 0 0 0.5 0.5 0.5\nv 1 1 0\r\n"
+                               "v 0 1 0\nvt 0 0\nf 1/1 2//3 3/4/5 \\\n 4\nf -4 -3 -2 # last\n"),
+                "quad.obj");
   ASSERT_EQ(mesh.vertex_count(), 4);
   Triangles expected(3, 3);
   expected << 0, 1, 2, 0, 2, 3, 0, 1, 2;
@@ -35,10 +33,10 @@ TEST(MeshFile, ObjReadsFansOfPolygonsSlashFormsNegativeIndicesAndJoinedLines) {
 
 TEST(MeshFile, AsciiPlyReadsForeignElementsAndProperties) {
   const TriangleMesh mesh = read_mesh(
-      bytes_of("ply\nformat ascii 1.0\ncomment made by hand\\\nelement camera 1\nproperty float f\n"
-               "element vertex 4\nproperty uchar red\nproperty double z\nproperty double y\nproperty float x\n"
-               "element face 1\nproperty list uchar float weights\nproperty list uchar int vertex_index\n"
-               "end_header\n1.5\n255 3 2 1\n0 0 0 4\n0 5 0 0\n0 0 0 0\n2 .5 .5 4 0 1\n2 3\n"),
+      test::bytes_of("ply\nformat ascii 1.0\ncomment made by hand\\\nelement camera 1\nproperty float f\n"
+                     "element vertex 4\nproperty uchar red\nproperty double z\nproperty double y\nproperty float x\n"
+                     "element face 1\nproperty list uchar float weights\nproperty list uchar int vertex_index\n"
+                     "end_header\n1.5\n255 3 2 1\n0 0 0 4\n0 5 0 0\n0 0 0 0\n2 .5 .5 4 0 1\n2 3\n"),
       "hand.ply");
   EXPECT_EQ(mesh.vertices.row(0), Eigen::RowVector3d(1, 2, 3));
   Triangles expected(2, 3);
@@ -64,7 +62,7 @@ TEST(MeshFile, BinaryPlyOfBothByteOrdersIsTheSameMesh) {
     for (int k = 0; k < 3; ++k) swapped(4);
   }
   ASSERT_EQ(at, text.size());
-  const TriangleMesh again = read_mesh(bytes_of(big), "big");
+  const TriangleMesh again = read_mesh(test::bytes_of(big), "big");
   EXPECT_EQ(again.vertices, mesh.vertices);
   EXPECT_EQ(again.triangles, mesh.triangles);
 }
@@ -84,11 +82,12 @@ TEST(MeshFile, WhatIsWrittenIsReadBack) {
 }
 
 TEST(MeshFile, AsciiStlWeldsEqualCornersSignedZeroIncluded) {
-  const TriangleMesh mesh = read_mesh(bytes_of("solid a b\n facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 "
-                                               "0 0\n vertex 1 1 0\n endloop\n endfacet\n"
-                                               " facet normal 0 0 1\n outer loop\n vertex -0.0 0 0\n vertex 1 1 0\n "
-                                               "vertex 0 1e0 0\n endloop\n endfacet\nendsolid\n"),
-                                      "quad");
+  const TriangleMesh mesh =
+      read_mesh(test::bytes_of("solid a b\n facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 "
+                               "0 0\n vertex 1 1 0\n endloop\n endfacet\n"
+                               " facet normal 0 0 1\n outer loop\n vertex -0.0 0 0\n vertex 1 1 0\n "
+                               "vertex 0 1e0 0\n endloop\n endfacet\nendsolid\n"),
+                "quad");
   EXPECT_EQ(mesh.vertex_count(), 4);
   Triangles expected(2, 3);
   expected << 0, 1, 2, 0, 2, 3;

@@ -7,13 +7,10 @@
 
 #include "engine/core/error.h"
 #include "engine/geometry/curve.h"
+#include "tests/support/text_bytes.h"
 
 namespace toile {
 namespace {
-
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 // A tube of two panels, front and back, each `columns` x `rows` squares of 2 cm, wrapped round the y axis. The back's
 // texture is mirrored when `mirrored`. Units as given; borders share no vertices.
@@ -46,7 +43,7 @@ std::string tube(int columns, int rows, double position_unit, double uv_unit, bo
 }
 
 TEST(ObjGarment, ATubeBecomesTwoPanelsWithTwoSeams) {
-  const ObjGarment garment = read_obj_garment(bytes_of(tube(20, 10, 1.0, 0.01)), "tube.obj");
+  const ObjGarment garment = read_obj_garment(test::bytes_of(tube(20, 10, 1.0, 0.01)), "tube.obj");
   const Pattern& pattern = garment.pattern;
   ASSERT_EQ(pattern.panels.size(), 2u);
   EXPECT_EQ(pattern.panels[0].name, "front");
@@ -67,20 +64,20 @@ TEST(ObjGarment, ATubeBecomesTwoPanelsWithTwoSeams) {
 TEST(ObjGarment, UnitsAreFoundFromTheAreasOrTaken) {
   for (const auto& [position, uv] :
        {std::pair(1.0, 0.01), std::pair(0.001, 0.001), std::pair(0.01, 1.0), std::pair(0.001, 0.01)}) {
-    const ObjGarment garment = read_obj_garment(bytes_of(tube(20, 20, position, uv)), "tube.obj");
+    const ObjGarment garment = read_obj_garment(test::bytes_of(tube(20, 20, position, uv)), "tube.obj");
     EXPECT_NEAR(std::abs(outline_signed_area(garment.pattern.panels[0])), 0.16, 1e-6);
     EXPECT_NEAR(garment.drape->nodes.col(1).maxCoeff(), 0.9, 1e-4);
     ObjGarmentOptions told;
     told.metre_per_uv_unit = uv;
     EXPECT_NEAR(std::abs(outline_signed_area(
-                    read_obj_garment(bytes_of(tube(20, 20, position, uv)), "t", told).pattern.panels[0])),
+                    read_obj_garment(test::bytes_of(tube(20, 20, position, uv)), "t", told).pattern.panels[0])),
                 0.16, 1e-6);
   }
-  EXPECT_THROW(read_obj_garment(bytes_of(tube(20, 20, 1.0, 0.3)), "normalised.obj"), Error);
+  EXPECT_THROW(read_obj_garment(test::bytes_of(tube(20, 20, 1.0, 0.3)), "normalised.obj"), Error);
 }
 
 TEST(ObjGarment, AMirroredTextureIsAPanelListedClockwise) {
-  const ObjGarment garment = read_obj_garment(bytes_of(tube(20, 10, 1.0, 0.01, true)), "tube.obj");
+  const ObjGarment garment = read_obj_garment(test::bytes_of(tube(20, 10, 1.0, 0.01, true)), "tube.obj");
   EXPECT_LT(outline_signed_area(garment.pattern.panels[1]), 0);
   EXPECT_TRUE(garment.mesh->panel_reversed[1]);
   EXPECT_EQ(garment.pattern.seams.size(), 2u);
@@ -93,7 +90,7 @@ TEST(ObjGarment, AMirroredTextureIsAPanelListedClockwise) {
 }
 
 TEST(ObjGarment, PanelsArePlacedOnTheirOutside) {
-  const ObjGarment garment = read_obj_garment(bytes_of(tube(20, 10, 1.0, 0.01)), "tube.obj");
+  const ObjGarment garment = read_obj_garment(test::bytes_of(tube(20, 10, 1.0, 0.01)), "tube.obj");
   for (std::size_t p = 0; p < 2; ++p) {
     const Panel& panel = garment.pattern.panels[p];
     const Vec3 outward = panel.rotation.col(2);
@@ -108,13 +105,13 @@ TEST(ObjGarment, FlatPositionsTakeTheirSeamsFromASidecar) {
   std::string text =
       "o a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n"
       "o b\nv 2 0 0\nv 3 0 0\nv 3 1 0\nv 2 1 0\nvt 2 0\nvt 3 0\nvt 3 1\nvt 2 1\nf 5/5 6/6 7/7 8/8\n";
-  const std::string sidecar = R"({"schema": "toile/seams/1",
+  const Bytes sidecar = test::bytes_of(R"({"schema": "toile/seams/1",
     "seams": [[{"from": 2, "to": 3}, {"from": 5, "to": 8}]],
-    "panels": {"a": {"translation": [10, 20, 30], "label": "body"}}, "toile": {"fabric": "denim"}})";
+    "panels": {"a": {"translation": [10, 20, 30], "label": "body"}}, "toile": {"fabric": "denim"}})");
   ObjGarmentOptions options;
   options.metre_per_uv_unit = 1.0;
-  options.sidecar = bytes_of(sidecar);
-  const ObjGarment garment = read_obj_garment(bytes_of(text), "flat.obj", options);
+  options.sidecar = sidecar;
+  const ObjGarment garment = read_obj_garment(test::bytes_of(text), "flat.obj", options);
   EXPECT_FALSE(garment.drape);
   ASSERT_EQ(garment.pattern.seams.size(), 1u);
   const Seam& seam = garment.pattern.seams[0];
@@ -123,13 +120,13 @@ TEST(ObjGarment, FlatPositionsTakeTheirSeamsFromASidecar) {
   EXPECT_NEAR(garment.pattern.panels[0].translation.z(), 0.3, 1e-12);
   EXPECT_EQ(garment.pattern.fabric.name, "denim");
   options.sidecar = {};
-  EXPECT_TRUE(read_obj_garment(bytes_of(text), "flat.obj", options).pattern.seams.empty());
+  EXPECT_TRUE(read_obj_garment(test::bytes_of(text), "flat.obj", options).pattern.seams.empty());
 }
 
 TEST(ObjGarment, RefusesWhatIsNoGarment) {
   const auto refusal = [](const std::string& text) {
     try {
-      read_obj_garment(bytes_of(text), "bad.obj");
+      read_obj_garment(test::bytes_of(text), "bad.obj");
     } catch (const Error& error) {
       EXPECT_EQ(exit_code(error.code), 3) << error.what();
       EXPECT_FALSE(error.message.empty());

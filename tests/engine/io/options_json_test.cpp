@@ -5,15 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/io/schema_texts.h"
+#include "tests/support/text_bytes.h"
 
 namespace toile {
 namespace {
 
 using nlohmann::json;
-
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
 
 json options_schema() {
   for (const SchemaText& schema : schema_texts())
@@ -59,7 +56,7 @@ TEST(OptionsJson, WhatIsWrittenIsReadBack) {
   options.pin_extremities = true;
   options.triangles = 4321;
   options.outputs = {"ticket.json", "fit.png"};
-  const AlterOptions again = read_options(bytes_of(write_options(options)));
+  const AlterOptions again = read_options(test::bytes_of(write_options(options)));
   EXPECT_EQ(again.max_tears_per_side, 3);
   EXPECT_EQ(again.stretch_limit, 0.05);
   EXPECT_EQ(again.cuts, CutKind::MeshEdges);
@@ -75,10 +72,10 @@ TEST(OptionsJson, EndsOfEveryRangeAreTakenAndWhatLiesBeyondIsRefusedByPointer) {
     if (option.type != OptionType::Integer && option.type != OptionType::Number) continue;
     SCOPED_TRACE(option.name);
     for (const double good : {option.least, option.most})
-      EXPECT_NO_THROW(read_options(bytes_of(json{{option.name, good}}.dump())));
+      EXPECT_NO_THROW(read_options(test::bytes_of(json{{option.name, good}}.dump())));
     for (const double bad : {option.least - 0.001, option.most + 0.001}) {
       try {
-        read_options(bytes_of(json{{option.name, bad}}.dump()));
+        read_options(test::bytes_of(json{{option.name, bad}}.dump()));
         ADD_FAILURE() << "accepted " << bad;
       } catch (const Error& error) {
         EXPECT_EQ(error.code, ErrorCode::OptionInvalid);
@@ -91,7 +88,7 @@ TEST(OptionsJson, EndsOfEveryRangeAreTakenAndWhatLiesBeyondIsRefusedByPointer) {
 TEST(OptionsJson, RefusesUnknownNamesAndWrongTypes) {
   const auto pointer_of = [](const std::string& text) {
     try {
-      read_options(bytes_of(text));
+      read_options(test::bytes_of(text));
     } catch (const Error& error) {
       return std::string(error_name(error.code)) + " " + error.subject;
     }

@@ -14,6 +14,7 @@
 #include "engine/io/pdf_content.h"
 #include "engine/io/pdf_document.h"
 #include "engine/io/pdf_tiles.h"
+#include "tests/support/text_bytes.h"
 
 namespace toile {
 namespace {
@@ -35,19 +36,9 @@ Drawing rectangle_and_disc() {
   return drawing;
 }
 
-std::string text_of(const Bytes& bytes) {
-  return {bytes.begin(), bytes.end()};
-}
-
-int count(const std::string& text, const std::string& what) {
-  int n = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + what.size())) ++n;
-  return n;
-}
-
 TEST(Pdf, TheCrossReferenceTablePointsAtEveryObject) {
   for (const PdfSheet sheet : {PdfSheet::A4, PdfSheet::Letter, PdfSheet::A0, PdfSheet::Projector}) {
-    const std::string pdf = text_of(write_pdf(rectangle_and_disc(), {sheet, "D:20260101120000Z"}));
+    const std::string pdf = test::text_of(write_pdf(rectangle_and_disc(), {sheet, "D:20260101120000Z"}));
     EXPECT_EQ(pdf.rfind("%PDF-1.7\n", 0), 0u);
     std::smatch match;
     ASSERT_TRUE(std::regex_search(pdf, match, std::regex("startxref\n([0-9]+)\n%%EOF\n$")));
@@ -70,14 +61,14 @@ TEST(Pdf, TheCrossReferenceTablePointsAtEveryObject) {
 
 TEST(Pdf, EqualDrawingsGiveEqualBytesAndOnlyTheGivenDateIsWritten) {
   EXPECT_EQ(write_pdf(rectangle_and_disc()), write_pdf(rectangle_and_disc()));
-  EXPECT_EQ(text_of(write_pdf(rectangle_and_disc())).find("CreationDate"), std::string::npos);
-  const std::string dated = text_of(write_pdf(rectangle_and_disc(), {PdfSheet::A0, "D:20260101120000Z"}));
+  EXPECT_EQ(test::text_of(write_pdf(rectangle_and_disc())).find("CreationDate"), std::string::npos);
+  const std::string dated = test::text_of(write_pdf(rectangle_and_disc(), {PdfSheet::A0, "D:20260101120000Z"}));
   EXPECT_NE(dated.find("/CreationDate(D:20260101120000Z)"), std::string::npos);
 }
 
 TEST(Pdf, PagesHaveTheSizeOfTheirPaper) {
   const auto box = [](PdfSheet sheet) {
-    const std::string pdf = text_of(write_pdf(rectangle_and_disc(), {sheet, {}}));
+    const std::string pdf = test::text_of(write_pdf(rectangle_and_disc(), {sheet, {}}));
     std::smatch match;
     EXPECT_TRUE(std::regex_search(pdf, match, std::regex("MediaBox\\[0 0 ([0-9.]+) ([0-9.]+)\\]")));
     return Vec2(std::stod(match[1]), std::stod(match[2])) * 25.4 / 72;
@@ -90,8 +81,8 @@ TEST(Pdf, PagesHaveTheSizeOfTheirPaper) {
 TEST(Pdf, APageLongerThanReadersDrawUsesALargerUnit) {
   Drawing banner = rectangle_and_disc();
   banner.pieces[0].lines[0].points[1].x() = banner.pieces[0].lines[0].points[2].x() = 12000;
-  const std::string pdf = text_of(write_pdf(banner, {PdfSheet::Projector, {}}));
-  EXPECT_EQ(count(pdf, "/UserUnit 3"), 1);
+  const std::string pdf = test::text_of(write_pdf(banner, {PdfSheet::Projector, {}}));
+  EXPECT_EQ(test::count_of(pdf, "/UserUnit 3"), 1);
 }
 
 TEST(Pdf, BlankTilesAreLeftOutAndFramesCoverTheSheet) {

@@ -9,16 +9,13 @@
 #include "engine/io/options_json.h"
 #include "engine/io/schema_texts.h"
 #include "tests/support/shared_data.h"
+#include "tests/support/text_bytes.h"
 
 namespace toile {
 namespace {
 
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
-}
-
 SchemaCheck check(const std::string& text, const std::string& schema = {}) {
-  return check_schema(bytes_of(text), schema);
+  return check_schema(test::bytes_of(text), schema);
 }
 
 TEST(SchemaCheck, EverySchemaIsJsonNamedAfterItsFile) {

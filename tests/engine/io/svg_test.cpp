@@ -7,6 +7,7 @@
 
 #include "engine/io/drawing_layout.h"
 #include "engine/io/text_format.h"
+#include "tests/support/text_bytes.h"
 
 namespace toile {
 namespace {
@@ -29,10 +30,6 @@ Drawing two_pieces() {
   return drawing;
 }
 
-std::string text_of(const Bytes& bytes) {
-  return {bytes.begin(), bytes.end()};
-}
-
 // Numbers of every path of a class.
 std::vector<std::vector<double>> paths(const std::string& svg, const std::string& kind) {
   std::vector<std::vector<double>> found;
@@ -48,7 +45,7 @@ std::vector<std::vector<double>> paths(const std::string& svg, const std::string
 }
 
 TEST(Svg, SizesAreMillimetresAndUserUnitsToo) {
-  const std::string svg = text_of(write_svg(two_pieces()));
+  const std::string svg = test::text_of(write_svg(two_pieces()));
   std::smatch match;
   ASSERT_TRUE(std::regex_search(
       svg, match, std::regex("width=\"([0-9.]+)mm\" height=\"([0-9.]+)mm\" viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"")));
@@ -57,7 +54,7 @@ TEST(Svg, SizesAreMillimetresAndUserUnitsToo) {
 }
 
 TEST(Svg, LinesKeepTheirTrueSize) {
-  const auto stitch = paths(text_of(write_svg(two_pieces())), "stitch");
+  const auto stitch = paths(test::text_of(write_svg(two_pieces())), "stitch");
   ASSERT_EQ(stitch.size(), 2u);
   for (const auto& p : stitch) {
     ASSERT_EQ(p.size(), 8u);
@@ -67,14 +64,14 @@ TEST(Svg, LinesKeepTheirTrueSize) {
 }
 
 TEST(Svg, TheScaleSquareIs100Millimetres) {
-  const auto cut = paths(text_of(write_svg(two_pieces())), "cut");
+  const auto cut = paths(test::text_of(write_svg(two_pieces())), "cut");
   ASSERT_EQ(cut.size(), 3u);
   EXPECT_DOUBLE_EQ(cut[0][2] - cut[0][0], 100);
   EXPECT_DOUBLE_EQ(cut[0][5] - cut[0][3], 100);
 }
 
 TEST(Svg, EveryPieceIsALayerAndNamesAreEscaped) {
-  const std::string svg = text_of(write_svg(two_pieces()));
+  const std::string svg = test::text_of(write_svg(two_pieces()));
   EXPECT_NE(svg.find("inkscape:groupmode=\"layer\" inkscape:label=\"front &quot;left&quot;\""), std::string::npos);
   EXPECT_NE(svg.find("inkscape:label=\"insertion_1\""), std::string::npos);
   EXPECT_NE(svg.find("<title>shirt &amp; &lt;tie&gt;</title>"), std::string::npos);
@@ -84,7 +81,7 @@ TEST(Svg, EveryPieceIsALayerAndNamesAreEscaped) {
 }
 
 TEST(Svg, TagsAreBalancedAndEverythingLiesInsideTheSheet) {
-  const std::string svg = text_of(write_svg(two_pieces()));
+  const std::string svg = test::text_of(write_svg(two_pieces()));
   const auto count = [&](const std::string& what) {
     int n = 0;
     for (std::size_t at = svg.find(what); at != std::string::npos; at = svg.find(what, at + 1)) ++n;
@@ -101,7 +98,7 @@ TEST(Svg, TagsAreBalancedAndEverythingLiesInsideTheSheet) {
 }
 
 TEST(Svg, AnEmptyDrawingIsStillAnSvg) {
-  const std::string svg = text_of(write_svg({}, {false, true}));
+  const std::string svg = test::text_of(write_svg({}, {false, true}));
   EXPECT_EQ(svg.rfind("<svg", 0), 0u);
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }

@@ -8,7 +8,7 @@
 namespace toile {
 namespace {
 
-constexpr int kSide = 12;
+constexpr int kGridSide = 12;
 
 // Laplacian of a grid; its diagonal is added up from the edges.
 std::vector<PlaneSolver::Link> grid_links() {
@@ -19,9 +19,9 @@ std::vector<PlaneSolver::Link> grid_links() {
     links.push_back({a, a, weight});
     links.push_back({b, b, weight});
   };
-  for (int i = 0; i < kSide * kSide; ++i) {
-    if (i % kSide > 0) join(i, i - 1);
-    if (i >= kSide) join(i - kSide, i);
+  for (int i = 0; i < kGridSide * kGridSide; ++i) {
+    if (i % kGridSide > 0) join(i, i - 1);
+    if (i >= kGridSide) join(i - kGridSide, i);
   }
   return links;
 }
@@ -29,7 +29,7 @@ std::vector<PlaneSolver::Link> grid_links() {
 // Every eleventh point slides along a line of its own; all are held a little.
 std::vector<Mat2> ties(double firm) {
   std::vector<Mat2> all;
-  for (int i = 0; i < kSide * kSide; ++i) {
+  for (int i = 0; i < kGridSide * kGridSide; ++i) {
     const Vec2 normal(std::cos(i), std::sin(i));
     all.push_back(1e-3 * Mat2::Identity());
     if (i % 11 == 0) all.back() += firm * normal * normal.transpose();
@@ -50,13 +50,13 @@ Eigen::MatrixXd dense(const std::vector<PlaneSolver::Link>& links, const std::ve
 }
 
 Points2 ramp() {
-  Points2 points(kSide * kSide, 2);
+  Points2 points(kGridSide * kGridSide, 2);
   for (Eigen::Index i = 0; i < points.size(); ++i) points.data()[i] = std::sin(0.7 * static_cast<double>(i) + 1);
   return points;
 }
 
 TEST(PlaneSolver, SolvesWhatADenseSolverSolvesAsOftenAsTheTiesChange) {
-  PlaneSolver solver(kSide * kSide, grid_links());
+  PlaneSolver solver(kGridSide * kGridSide, grid_links());
   const Points2 right = ramp();
   const Eigen::Map<const Eigen::VectorXd> flat(right.data(), right.size());
   for (const double firm : {1.0, 1e3, 0.0}) {
@@ -70,14 +70,14 @@ TEST(PlaneSolver, SolvesWhatADenseSolverSolvesAsOftenAsTheTiesChange) {
 }
 
 TEST(PlaneSolver, RefusesWhatIsNotPositiveDefiniteAndRecovers) {
-  PlaneSolver solver(kSide * kSide, grid_links());
+  PlaneSolver solver(kGridSide * kGridSide, grid_links());
   std::vector<Mat2> pushed = ties(1.0);
   pushed[30] = -10.0 * Mat2::Identity();
   EXPECT_FALSE(solver.factor(pushed));
   pushed[30](0, 0) = std::nan("");
   EXPECT_FALSE(solver.factor(pushed));
   ASSERT_TRUE(solver.factor(ties(1.0)));
-  Points2 solution(kSide * kSide, 2);
+  Points2 solution(kGridSide * kGridSide, 2);
   solver.solve(ramp(), solution);
   EXPECT_TRUE(solution.allFinite());
 }

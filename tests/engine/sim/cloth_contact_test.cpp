@@ -12,8 +12,6 @@
 namespace toile {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 class FloorField : public SignedField {
  public:
   double evaluate(const Vec3& p, double, Vec3& gradient) override {
@@ -197,7 +195,7 @@ TEST(ClothContact, PiercedSheetsComeApartAtRest) {
 
 // A sheet in a Z of three layers, a few millimetres apart, dropped on a floor.
 struct Pleat {
-  static constexpr double kRadius = 0.005, kFlat = 0.11, kTurn = kPi * kRadius;
+  static constexpr double kRadius = 0.005, kFlat = 0.11, kTurn = std::numbers::pi * kRadius;
   test::GridGarment garment = test::grid_garment({{"sheet", 3 * kFlat + 2 * kTurn, 0.3, 50, 50, 0.25}});
   Cloth cloth = make_cloth(garment.pattern, garment.mesh);
 
@@ -245,9 +243,9 @@ TEST(SlowClothContact, PleatOfThreeLayersComesToRestWithoutCrossing) {
 // A tube round a body, and a sleeve 10 cm wide drawn to 6 cm from it by its outer line.
 TEST(SlowClothContact, SleevePressedAgainstTheSideDoesNotPassThroughIt) {
   const double torso = 0.15, sleeve = 0.05;
-  test::GridGarment garment =
-      test::grid_garment({{"torso", 2 * kPi * torso, 0.3, 48, 26, 0.2}, {"sleeve", 2 * kPi * sleeve, 0.3, 32, 39, 0.2}},
-                         {{0, 1, 0, 3}, {1, 1, 1, 3}});
+  test::GridGarment garment = test::grid_garment({{"torso", 2 * std::numbers::pi * torso, 0.3, 48, 26, 0.2},
+                                                  {"sleeve", 2 * std::numbers::pi * sleeve, 0.3, 32, 39, 0.2}},
+                                                 {{0, 1, 0, 3}, {1, 1, 1, 3}});
   const PatternMesh& mesh = garment.mesh;
   ASSERT_NEAR(mesh.triangle_count(), 5000, 100);
   const Cloth cloth = make_cloth(garment.pattern, mesh);
@@ -259,7 +257,8 @@ TEST(SlowClothContact, SleevePressedAgainstTheSideDoesNotPassThroughIt) {
     const int node = mesh.node_of_vertex[static_cast<std::size_t>(v)];
     start.row(node) = Vec3((is_sleeve ? torso + sleeve + 0.005 : 0.0) - radius * std::cos(angle), mesh.rest(v, 1),
                            radius * std::sin(angle));
-    if (is_sleeve && std::abs(angle - kPi) < 0.1) pins.push_back({node, Vec3(torso + 0.06, mesh.rest(v, 1), 0), 100.0});
+    if (is_sleeve && std::abs(angle - std::numbers::pi) < 0.1)
+      pins.push_back({node, Vec3(torso + 0.06, mesh.rest(v, 1), 0), 100.0});
   }
   ASSERT_GT(pins.size(), 10u);
   ASSERT_EQ(crossings(mesh, start), 0);

@@ -14,8 +14,6 @@
 namespace toile {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Contact with multipliers, no thickness, no friction: the exact obstacle.
 ContactOptions exact_contact() {
   ContactOptions options;
@@ -44,7 +42,7 @@ RelaxResult relax_in_rounds(DrapeEnergy& energy, Points3 start, const RelaxOptio
 
 // Case 15. A tube 5 % too small on a cylinder becomes a regular n-gon on it: hoop 2 R sin(pi / n) n / L.
 TEST(ExactDrape, TubeOnACylinderHasTheHoopStretchOfItsPolygon) {
-  const double radius = 0.14, girth = 0.95 * 2 * kPi * radius;
+  const double radius = 0.14, girth = 0.95 * 2 * std::numbers::pi * radius;
   for (const auto& [n, published] : {std::pair(24, 1.04963), std::pair(52, 1.05199), std::pair(74, 1.05232)}) {
     const Pattern pattern = test::tube_skirt_pattern(girth, 0.3, 0.0, 0.2);
     const PatternMesh mesh = test::structured_mesh(pattern, n / 2, 8);
@@ -57,7 +55,7 @@ TEST(ExactDrape, TubeOnACylinderHasTheHoopStretchOfItsPolygon) {
                               .nodes;
     const Points3 x = relax_in_rounds(energy, start, tight(), 12).nodes;
 
-    const double exact = 2 * radius * std::sin(kPi / n) * n / girth;
+    const double exact = 2 * radius * std::sin(std::numbers::pi / n) * n / girth;
     EXPECT_NEAR(exact, published, 6e-6);
     double worst_hoop = 0, worst_axial = 0;
     for (int f = 0; f < mesh.triangle_count(); ++f)
@@ -79,7 +77,7 @@ TEST(ExactDrape, TubeOnACylinderHasTheHoopStretchOfItsPolygon) {
 // Case 16. Rest radius 14 cm on R(z) = 13 + 4 exp(-((z - 30) / 8)^2) cm; the published 33.79 is in kg cm^2/s^2 at a
 // stiffness of 2 kg/s^2 without shear resistance. Energy is proportional to the stiffness.
 TEST(ExactDrape, TubeOnABellyHasThePublishedEnergy) {
-  Pattern pattern = test::tube_skirt_pattern(2 * kPi * 0.14, 0.6, 0.0, 0.2);
+  Pattern pattern = test::tube_skirt_pattern(2 * std::numbers::pi * 0.14, 0.6, 0.0, 0.2);
   pattern.fabric.shear_stiffness = 1e-3;
   pattern.fabric.bending_stiffness = 0;
   const PatternMesh mesh = test::structured_mesh(pattern, 26, 41);
@@ -103,7 +101,7 @@ TEST(ExactDrape, TubeOnABellyHasThePublishedEnergy) {
 
 // The same by the paper's averaging: 34.19 after 1000 iterations (design/method.md, section 3).
 TEST(ExactDrape, AveragedTargetsReachThePublishedEnergyOfTheBelly) {
-  Pattern pattern = test::tube_skirt_pattern(2 * kPi * 0.14, 0.6, 0.0, 0.2);
+  Pattern pattern = test::tube_skirt_pattern(2 * std::numbers::pi * 0.14, 0.6, 0.0, 0.2);
   pattern.fabric.shear_stiffness = 1e-3;
   const PatternMesh mesh = test::structured_mesh(pattern, 26, 41);
   const Cloth cloth = make_cloth(pattern, mesh);

@@ -34,12 +34,12 @@ double least_eigenvalue(const BlockHessian& hessian) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(dense(hessian)).eigenvalues().minCoeff();
 }
 
-struct Sheet {
+struct HessianSheet {
   Pattern pattern = test::sheet_pattern(0.4, 0.6, 1.0);
   PatternMesh mesh = test::structured_mesh(pattern, 3, 5);
   Points3 flat = test::placed_nodes(pattern, mesh);
   Cloth cloth;
-  Sheet() {
+  HessianSheet() {
     pattern.fabric.weft_stiffness = 700;
     pattern.fabric.warp_stiffness = 1300;
     pattern.fabric.shear_stiffness = 90;
@@ -71,13 +71,13 @@ struct Sheet {
 };
 
 TEST(Hessian, OfTheMembraneIsTheDerivativeOfItsGradientInEveryShape) {
-  const Sheet s;
+  const HessianSheet s;
   for (const Points3& x : s.shapes())
     expect_hessian(s.membrane(), s.membrane_hessian(x, Curvature::Exact), x, 1e-7, 1e-5);
 }
 
 TEST(Hessian, OfTheMembraneIsExactAtRestAndSeesRigidMotion) {
-  const Sheet s;
+  const HessianSheet s;
   const BlockHessian hessian = s.membrane_hessian(s.flat, Curvature::Exact);
   expect_hessian(s.membrane(), hessian, s.flat, 1e-7, 1e-4);
   const Points3 shift = Points3::Ones(s.mesh.node_count, 3);
@@ -85,7 +85,7 @@ TEST(Hessian, OfTheMembraneIsExactAtRestAndSeesRigidMotion) {
 }
 
 TEST(Hessian, OfTheMembraneStaysFiniteWhereTrianglesCollapse) {
-  const Sheet s;
+  const HessianSheet s;
   Points3 line = s.flat;
   line.col(0).setZero();
   for (const Points3& x : {line, Points3(Points3::Zero(s.mesh.node_count, 3))})
@@ -94,7 +94,7 @@ TEST(Hessian, OfTheMembraneStaysFiniteWhereTrianglesCollapse) {
 }
 
 TEST(Hessian, ProjectedHasNoNegativeCurvatureWhereTheExactOneHas) {
-  const Sheet s;
+  const HessianSheet s;
   int negative = 0;
   for (const Points3& x : s.shapes()) {
     negative += least_eigenvalue(s.membrane_hessian(x, Curvature::Exact)) < -1.0;
@@ -104,7 +104,7 @@ TEST(Hessian, ProjectedHasNoNegativeCurvatureWhereTheExactOneHas) {
 }
 
 TEST(Hessian, ProjectedIsExactInTension) {
-  const Sheet s;
+  const HessianSheet s;
   const Points3 x = 1.1 * s.flat;
   const Eigen::MatrixXd exact = dense(s.membrane_hessian(x, Curvature::Exact));
   EXPECT_LT((dense(s.membrane_hessian(x, Curvature::Projected)) - exact).norm(), 1e-9 * exact.norm());
@@ -192,7 +192,7 @@ TEST(Hessian, OfABodysFieldIsTheDerivativeOfItsGradient) {
 }
 
 TEST(Hessian, TakesBlocksBetweenNodesThatShareNoTriangle) {
-  Sheet s;
+  HessianSheet s;
   BlockHessian hessian(s.cloth);
   Mat3 block;
   block << 1, 2, 3, 4, 5, 6, 7, 8, 9;

@@ -15,12 +15,12 @@ Fabric anisotropic() {
   return fabric;
 }
 
-struct Sheet {
+struct MembraneSheet {
   Pattern pattern = test::sheet_pattern(0.4, 0.6, 1.0);
   PatternMesh mesh = test::structured_mesh(pattern, 3, 5);
   Points3 flat = test::placed_nodes(pattern, mesh);
   Cloth cloth;
-  Sheet() {
+  MembraneSheet() {
     pattern.fabric = anisotropic();
     cloth = make_cloth(pattern, mesh);
   }
@@ -33,12 +33,12 @@ struct Sheet {
 };
 
 TEST(Membrane, GradientIsTheDerivativeOfTheEnergyWhenCrumpled) {
-  const Sheet s;
+  const MembraneSheet s;
   test::expect_gradient(s.energy(), s.flat + test::random_points(s.mesh.node_count, 0.05, 1));
 }
 
 TEST(Membrane, GradientIsTheDerivativeOfTheEnergyUnderCompressionAndInsideOut) {
-  const Sheet s;
+  const MembraneSheet s;
   Points3 small = 0.3 * s.flat + test::random_points(s.mesh.node_count, 0.01, 2);
   test::expect_gradient(s.energy(), small);
   small.col(0) *= -1;
@@ -46,7 +46,7 @@ TEST(Membrane, GradientIsTheDerivativeOfTheEnergyUnderCompressionAndInsideOut) {
 }
 
 TEST(Membrane, GradientStaysFiniteWhereTrianglesCollapse) {
-  const Sheet s;
+  const MembraneSheet s;
   Points3 line = s.flat;
   line.col(0).setZero();
   Points3 gradient = Points3::Zero(s.mesh.node_count, 3);
@@ -59,7 +59,7 @@ TEST(Membrane, GradientStaysFiniteWhereTrianglesCollapse) {
 }
 
 TEST(Membrane, RigidMotionHasNeitherEnergyNorForce) {
-  const Sheet s;
+  const MembraneSheet s;
   const Mat3 turn = (Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized())).toRotationMatrix();
   const Points3 moved = (s.flat * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -2, 1);
   Points3 gradient = Points3::Zero(s.mesh.node_count, 3);
@@ -68,7 +68,7 @@ TEST(Membrane, RigidMotionHasNeitherEnergyNorForce) {
 }
 
 TEST(Membrane, UniaxialStretchCostsTheStiffnessOfThatDirection) {
-  const Sheet s;
+  const MembraneSheet s;
   Points3 wide = s.flat;
   wide.col(0) *= 1.1;
   Points3 gradient = Points3::Zero(s.mesh.node_count, 3);
@@ -80,7 +80,7 @@ TEST(Membrane, UniaxialStretchCostsTheStiffnessOfThatDirection) {
 }
 
 TEST(Membrane, GrainlineTurnsTheStiffDirection) {
-  Sheet s;
+  MembraneSheet s;
   s.pattern.panels[0].grainline = std::array<Vec2, 2>{Vec2(0, 0), Vec2(1, 0)};
   const Cloth turned = make_cloth(s.pattern, s.mesh);
   Points3 wide = s.flat;
@@ -101,7 +101,7 @@ TEST(Membrane, PaddingLanesCarryNothing) {
 }
 
 TEST(Membrane, BoundIsNotBelowTheSecondDerivativeInTension) {
-  const Sheet s;
+  const MembraneSheet s;
   const SparseMatrix bound = membrane_bound(s.cloth);
   const Points3 tense = 1.05 * s.flat;
   for (unsigned k = 0; k < 6; ++k) {

@@ -11,7 +11,7 @@
 namespace toile {
 namespace {
 
-constexpr double kRadius = 0.14;
+constexpr double kTubeRadius = 0.14;
 
 // Of a cloth that does not fold: soft folds of a hem wander for hundreds of iterations.
 Pattern stiff(Pattern pattern) {
@@ -24,7 +24,7 @@ struct Skirt {
   PatternMesh mesh = test::structured_mesh(pattern, 14, 12);
   Cloth cloth = make_cloth(pattern, mesh);
   Body body = test::tube_body(
-      "tube", [](double y) { return kRadius + 0.03 * std::cos(7 * y); }, 0.8);
+      "tube", [](double y) { return kTubeRadius + 0.03 * std::cos(7 * y); }, 0.8);
   SurfaceField field{body.surface.vertices, body.surface.triangles};
   Points3 start() const {
     return test::wrapped_tube(

@@ -13,12 +13,12 @@ const Vec3 kSlip(0.0, 0.0004, 0.0);  // m, of held nodes from their anchors
 constexpr double kPressure = 120.0;  // of friction, N/m^2
 
 // A sheet stretched and turned out of its plane, held where it is above `lowest`.
-struct HeldSheet {
+struct CarriedSheet {
   Pattern pattern = test::sheet_pattern(0.4, 0.6, 1.0);
   PatternMesh mesh;
   DrapeEnd end;
 
-  explicit HeldSheet(double lowest) : mesh(test::structured_mesh(pattern, 8, 12)) {
+  explicit CarriedSheet(double lowest) : mesh(test::structured_mesh(pattern, 8, 12)) {
     const Eigen::VectorXd area = make_cloth(pattern, mesh).node_area;
     end.drape.nodes = placed(mesh);
     end.held.hold_height = 1.05;
@@ -40,7 +40,7 @@ struct HeldSheet {
 };
 
 TEST(CarryDrape, PutsEveryNodeWhereItsPointOfTheClothLies) {
-  const HeldSheet sheet(0.0);
+  const CarriedSheet sheet(0.0);
   const PatternMesh finer = test::structured_mesh(sheet.pattern, 13, 17);
   const DrapeEnd carried = carry_drape(sheet.pattern, sheet.mesh, sheet.end, finer);
   EXPECT_LT((carried.drape.nodes - sheet.placed(finer)).cwiseAbs().maxCoeff(), 1e-12);
@@ -48,7 +48,7 @@ TEST(CarryDrape, PutsEveryNodeWhereItsPointOfTheClothLies) {
 }
 
 TEST(CarryDrape, CarriesFrictionPerArea) {
-  const HeldSheet sheet(0.0);
+  const CarriedSheet sheet(0.0);
   const PatternMesh finer = test::structured_mesh(sheet.pattern, 13, 17);
   const DrapeEnd carried = carry_drape(sheet.pattern, sheet.mesh, sheet.end, finer);
   const Eigen::VectorXd area = make_cloth(sheet.pattern, finer).node_area;
@@ -59,7 +59,7 @@ TEST(CarryDrape, CarriesFrictionPerArea) {
 
 // Nodes that never touched have no anchor: their neighbours' must not be drawn to where it would be.
 TEST(CarryDrape, ClothBesideTheHeldIsNotDrawnAway) {
-  const HeldSheet sheet(0.9);
+  const CarriedSheet sheet(0.9);
   const PatternMesh finer = test::structured_mesh(sheet.pattern, 13, 17);
   const DrapeEnd carried = carry_drape(sheet.pattern, sheet.mesh, sheet.end, finer);
   int held = 0, between = 0;

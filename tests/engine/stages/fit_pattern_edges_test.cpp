@@ -14,7 +14,7 @@
 namespace toile {
 namespace {
 
-constexpr double kTolerance = 0.5e-3;  // m, what a fitted edge may be off [issue "derive", item 5]
+constexpr double kDrawnTolerance = 0.5e-3;  // m, what a fitted edge may be off [issue "derive", item 5]
 
 Pattern shared_pattern(const std::string& name) {
   return import_pattern(test::read_file(test::shared_data("garments/" + name + "_specification.json")));
@@ -59,14 +59,14 @@ TEST(FitPatternEdges, SmoothDeformationsComeBackAsTheOriginalKindsOfEdges) {
     const Pattern pattern = shared_pattern(name);
     const PatternMesh mesh = mesh_panels(pattern);
     FitPatternEdgesOptions options;
-    options.cubic_tolerance = kTolerance;
+    options.cubic_tolerance = kDrawnTolerance;
     options.keep_straight = false;
     options.keep_seam_ratios = false;
     const FitPatternEdgesResult result = fit_pattern_edges(pattern, mesh, moved(mesh, motion), {}, options);
     bent += result.bent_edges;
     polylines += result.polyline_edges;
     for (const Panel& panel : result.pattern.panels) edges += panel.edge_count();
-    EXPECT_LT(result.largest_deviation, kTolerance);
+    EXPECT_LT(result.largest_deviation, kDrawnTolerance);
     validate_pattern(result.pattern);
   }
   EXPECT_GT(edges, 1000);

@@ -13,7 +13,7 @@
 namespace toile {
 namespace {
 
-struct Scene {
+struct CarriedSkirt {
   Body reference = make_builtin_form("tube-14-100");
   Pattern pattern = test::tube_skirt_pattern(0.88, 0.6, 0.3, 0.2);
   PatternMesh mesh = test::structured_mesh(pattern, 16, 20);
@@ -26,12 +26,12 @@ struct Scene {
 };
 
 TEST(TransportGarment, LeavesTheGarmentWhereItIsWhenBothBodiesAreTheSame) {
-  const Scene scene;
+  const CarriedSkirt scene;
   EXPECT_LT((scene.carried_to(scene.reference) - scene.drape.nodes).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(TransportGarment, KeepsTheDistanceToTheBodyAndFollowsItsHeight) {
-  const Scene scene;
+  const CarriedSkirt scene;
   const Points3 carried = scene.carried_to(make_builtin_form("tube-18-125"));
   for (Eigen::Index i = 0; i < carried.rows(); ++i) {
     EXPECT_NEAR(carried(i, 1), 1.25 * scene.drape.nodes(i, 1), 1e-9);
@@ -41,7 +41,7 @@ TEST(TransportGarment, KeepsTheDistanceToTheBodyAndFollowsItsHeight) {
 }
 
 TEST(TransportGarment, EndsOutsideTheTarget) {
-  Scene scene;
+  CarriedSkirt scene;
   scene.drape.nodes.row(7) *= 0.97;  // inside the reference body already
   const Body target = make_builtin_form("tube-11-100");
   const SurfaceTree tree(target.surface.vertices, target.surface.triangles);

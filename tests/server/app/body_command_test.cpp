@@ -6,29 +6,25 @@
 
 #include "engine/io/mesh_file.h"
 #include "engine/io/schema_check.h"
-#include "tests/support/run_process.h"
+#include "tests/server/app/toile_program.h"
 #include "tests/support/shared_body.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/solids.h"
+#include "tests/support/text_bytes.h"
 
 namespace toile {
 namespace {
 
+using test::toile_says;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
-
-const std::string kToile = TOILE_BINARY_DIR "/bin/toile";
 
 // Of the issue: a bad input costs no more than this, whatever it claims.
 constexpr double kMostSeconds = 1.0, kMostMegabytes = 256.0;
 
 test::ProcessResult body(std::vector<std::string> words) {
-  words.insert(words.begin(), {kToile, "--quiet", "body"});
-  return test::run_process(words);
-}
-
-std::string text_of(const Bytes& bytes) {
-  return {bytes.begin(), bytes.end()};
+  words.insert(words.begin(), {"--quiet", "body"});
+  return toile_says(std::move(words));
 }
 
 TEST(BodyCommand, PrintsOneDocumentAndWritesTheNormalisedBody) {
@@ -69,7 +65,8 @@ TEST(BodyCommand, TheSameFileGivesTheSameBytesWithOneThreadAndTwo) {
 
 TEST(BodyCommand, AFormIsTakenAsItStands) {
   const test::TemporaryFolder folder;
-  const std::string box = folder.write("box.obj", text_of(write_obj(test::make_box(Vec3(0, 0, 0), Vec3(30, 100, 30)))));
+  const std::string box =
+      folder.write("box.obj", test::text_of(write_obj(test::make_box(Vec3(0, 0, 0), Vec3(30, 100, 30)))));
   const auto result = body({box, "--kind", "form", "--unit", "cm"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(Json::parse(result.out)["kind"], "form");
@@ -111,8 +108,8 @@ std::vector<Bad> bad_bodies() {
           {"giant.ply", header + "1000000000" + rest, "line 3"},
           {"claim.ply", header + "250000" + rest, "cut short"},
           {"claim.stl", stl, "byte 80"},
-          {"cube.obj", text_of(write_obj(test::make_box(Vec3::Zero(), Vec3::Ones()))), "person"},
-          {"small.obj", text_of(write_obj(small)), "person"},
+          {"cube.obj", test::text_of(write_obj(test::make_box(Vec3::Zero(), Vec3::Ones()))), "person"},
+          {"small.obj", test::text_of(write_obj(small)), "person"},
           {"giant.json", R"({"measurements_cm": {"height": 400}})", "measurements/height"},
           {"figure.json", R"({"figure": "cat", "measurements_cm": {"height": 170}})", "/figure"},
           {"empty.ply", "", "empty"}};
@@ -136,7 +133,7 @@ TEST(BodyCommand, APersonOfSixCentimetresIsRefused) {
   TriangleMesh tiny = test::load_shared_body("ggg_mean_all").surface;
   tiny.vertices *= 0.06 / 1.72;
   const test::TemporaryFolder folder;
-  const auto result = body({folder.write("tiny.ply", text_of(write_ply(tiny)))});
+  const auto result = body({folder.write("tiny.ply", test::text_of(write_ply(tiny)))});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.err, HasSubstr("tall"));
   EXPECT_LT(result.cpu_s, kMostSeconds);

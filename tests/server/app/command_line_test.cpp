@@ -6,22 +6,18 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/options_json.h"
-#include "tests/support/run_process.h"
+#include "tests/server/app/toile_program.h"
 
 namespace toile {
 namespace {
 
+using test::kToile;
+using test::toile_says;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::string kToile = TOILE_BINARY_DIR "/bin/toile";
 const std::string kExamples = TOILE_SOURCE_DIR "/schemas/examples/";
 constexpr const char* kTriangles = "1000";
-
-test::ProcessResult toile_says(std::vector<std::string> words) {
-  words.insert(words.begin(), kToile);
-  return test::run_process(words);
-}
 
 // The tube skirt worn by the tube it was drafted for.
 test::ProcessResult drape(const std::string& out, const std::vector<std::string>& more = {}) {

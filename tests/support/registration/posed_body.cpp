@@ -125,10 +125,6 @@ Mat4 draw_frame(Draw& draw) {
   return frame;
 }
 
-Points3 moved(const Points3& points, const Mat4& m) {
-  return (points * m.topLeftCorner<3, 3>().transpose()).rowwise() + m.topRightCorner<3, 1>().transpose();
-}
-
 }  // namespace
 
 Points3 posed(const TriangleMesh& body, const BodyPose& pose) {

@@ -16,10 +16,6 @@ namespace {
 
 constexpr double kMasked = 0.3;  // a vertex with more of hand, head or foot than this is not judged
 
-Points3 moved(const Points3& points, const Mat4& m) {
-  return (points * m.topLeftCorner<3, 3>().transpose()).rowwise() + m.topRightCorner<3, 1>().transpose();
-}
-
 bool judged(const Eigen::MatrixXd& weights, Eigen::Index v, bool arms) {
   double masked = weights(v, Head);
   for (const Side side : {Left, Right}) {
@@ -30,6 +26,10 @@ bool judged(const Eigen::MatrixXd& weights, Eigen::Index v, bool arms) {
 }
 
 }  // namespace
+
+Points3 moved(const Points3& points, const Mat4& m) {
+  return (points * m.topLeftCorner<3, 3>().transpose()).rowwise() + m.topRightCorner<3, 1>().transpose();
+}
 
 double quantile(std::vector<double> values, double fraction) {
   if (values.empty()) return 0.0;

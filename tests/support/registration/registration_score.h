@@ -32,5 +32,6 @@ RegistrationScore score_registration(const Points3& mapped, const Eigen::MatrixX
                                      bool same_family);
 
 double quantile(std::vector<double> values, double fraction);
+Points3 moved(const Points3& points, const Mat4& m);  // each of them m * p
 
 }  // namespace toile::test
