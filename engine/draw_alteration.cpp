@@ -13,12 +13,6 @@
 namespace toile {
 namespace {
 
-std::vector<Vec2> in_mm(const std::vector<Vec2>& metres) {
-  std::vector<Vec2> points;
-  for (const Vec2& p : metres) points.emplace_back(p * kMmPerMetre);
-  return points;
-}
-
 // "+2" for the second insertion of a panel, "-2" for its second removal.
 std::string short_name(const AlteredRegion& region, char sign) {
   const std::size_t digits = region.name.find_last_not_of("0123456789") + 1;
@@ -183,6 +177,12 @@ Drawing draw_unsewn(const Pattern& pattern, const AlterPatternResult& alteration
 }
 
 }  // namespace
+
+std::vector<Vec2> in_mm(const std::vector<Vec2>& metres) {
+  std::vector<Vec2> points;
+  for (const Vec2& p : metres) points.emplace_back(p * kMmPerMetre);
+  return points;
+}
 
 Drawing draw_alteration(const Pattern& pattern, const AlterPatternResult& alteration) {
   if (alteration.sewn.pieces.empty()) return draw_unsewn(pattern, alteration);

@@ -14,4 +14,6 @@ namespace toile {
 
 Drawing draw_alteration(const Pattern& pattern, const AlterPatternResult& alteration);
 
+std::vector<Vec2> in_mm(const std::vector<Vec2>& metres);
+
 }  // namespace toile

@@ -23,11 +23,11 @@ bool unusable(const Panel& panel) {
   return !(std::abs(outline_signed_area(panel)) >= kSmallestPanel) || find_outline_crossing(panel).has_value();
 }
 
-class Drawing {
+class TargetDrawer {
  public:
-  Drawing(const Pattern& pattern, const PatternMesh& mesh, const FittingMap& fit, const Drape& shape,
-          const Points2& derived, const GarmentMirrors& mirrors, const DerivePatternOptions& options,
-          Progress* progress)
+  TargetDrawer(const Pattern& pattern, const PatternMesh& mesh, const FittingMap& fit, const Drape& shape,
+               const Points2& derived, const GarmentMirrors& mirrors, const DerivePatternOptions& options,
+               Progress* progress)
       : pattern_(pattern),
         mesh_(mesh),
         fit_(fit),
@@ -131,7 +131,7 @@ class Drawing {
 DrawnTarget draw_target(const Pattern& pattern, const PatternMesh& reference_mesh, const FittingMap& reference_fit,
                         const Drape& shape, const Points2& derived, const GarmentMirrors& mirrors,
                         const DerivePatternOptions& options, Progress* progress) {
-  return Drawing(pattern, reference_mesh, reference_fit, shape, derived, mirrors, options, progress).run();
+  return TargetDrawer(pattern, reference_mesh, reference_fit, shape, derived, mirrors, options, progress).run();
 }
 
 }  // namespace toile

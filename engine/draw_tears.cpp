@@ -6,6 +6,7 @@
 #include "engine/alter/tear_steps.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/draw_alteration.h"
 #include "engine/render/palette.h"
 
 namespace toile {
@@ -15,12 +16,6 @@ constexpr double kCaption = 9.0;      // mm, height of letters
 constexpr double kLine = 16.0;        // mm, between lines of a caption
 constexpr double kLeastWide = 250.0;  // mm, of a frame: its caption has room
 constexpr double kPercent = 100.0;
-
-std::vector<Vec2> in_mm(const std::vector<Vec2>& metres) {
-  std::vector<Vec2> points;
-  for (const Vec2& p : metres) points.emplace_back(p * kMmPerMetre);
-  return points;
-}
 
 std::vector<Vec2> wanted_outline(const Sheet& sheet) {
   std::vector<Vec2> outline;

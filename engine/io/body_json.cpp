@@ -13,7 +13,7 @@ namespace toile {
 namespace {
 
 constexpr std::size_t kMaxNames = 500;   // landmarks or measurements of one document
-constexpr double kMaxCoordinate = 1e5;   // as for mesh files
+constexpr double kMaxLandmark = 1e5;     // as for mesh files
 constexpr double kMaxMeasurement = 5.0;  // m: no tape measure of a person is longer
 
 // Runs `read` on the parsed document; refusals name the file and the JSON pointer.
@@ -39,7 +39,7 @@ Landmarks read_points(const JsonView& object) {
   for (const auto& [name, value] : members) {
     if (!value.is_array() || value.size() != 3) value.fail("a landmark is [x, y, z]");
     for (std::size_t k = 0; k < 3; ++k)
-      points[name][static_cast<int>(k)] = value.at(k).number(-kMaxCoordinate, kMaxCoordinate);
+      points[name][static_cast<int>(k)] = value.at(k).number(-kMaxLandmark, kMaxLandmark);
   }
   return points;
 }

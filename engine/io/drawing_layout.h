@@ -6,6 +6,8 @@
 
 namespace toile {
 
+inline constexpr double kHeaderMm = 120.0;  // over the pieces, for title and test square
+
 struct SheetLayout {
   std::vector<Vec2> shifts;  // added to a piece's own coordinates, mm, y up; one per piece
   Vec2 size = Vec2::Zero();  // of the sheet, mm

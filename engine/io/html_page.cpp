@@ -9,7 +9,7 @@
 namespace toile {
 namespace {
 
-constexpr std::string_view kStyle = R"(
+constexpr std::string_view kPageStyle = R"(
 :root{--ink:#1c1c20;--soft:#6b6b75;--line:#dcdce2;--paper:#fff;--tint:#f6f4f0;--blue:#2f5bd8;--red:#c8281e}
 *{box-sizing:border-box}
 body{margin:0 auto;max-width:62rem;padding:1.2rem 1rem 3rem;color:var(--ink);background:var(--paper);
@@ -140,7 +140,7 @@ void HtmlPage::record(const Record& record) {
 Bytes HtmlPage::finish() const {
   std::string page = "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\n";
   append(page, {"<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>", escape_xml(title_),
-                "</title>\n<style>", kStyle, "</style></head>\n<body>\n", body_, "</body>\n</html>\n"});
+                "</title>\n<style>", kPageStyle, "</style></head>\n<body>\n", body_, "</body>\n</html>\n"});
   return Bytes(page.begin(), page.end());
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kLongestName = 100;
 constexpr std::size_t kMostGroups = 10'000;
 constexpr std::size_t kMostCorners = 1000;  // of one polygon
-constexpr double kMostFit = 10.0;           // of a wanted fit's entries: no cloth is stretched or squeezed by more
+constexpr double kMostWanted = 10.0;        // of a wanted fit's entries: no cloth is stretched or squeezed by more
 
 // Plain printable ASCII; anything else becomes an underscore.
 std::string printable(std::string_view text) {
@@ -23,9 +23,10 @@ std::string printable(std::string_view text) {
   return name;
 }
 
-class Reader {
+class TexturedReader {
  public:
-  Reader(std::span<const std::uint8_t> bytes, const std::string& name) : scanner_(bytes, name, LineJoin::Backslash) {
+  TexturedReader(std::span<const std::uint8_t> bytes, const std::string& name)
+      : scanner_(bytes, name, LineJoin::Backslash) {
     if (bytes.size() > limits_.bytes)
       throw Error(ErrorCode::LimitExceeded, name, "an OBJ garment may have at most 64 MiB; export a coarser mesh");
   }
@@ -100,8 +101,8 @@ class Reader {
   void read_wanted_fit() {
     const double weft = scanner_.number("the fit along the weft"), across = scanner_.number("the fit across"),
                  warp = scanner_.number("the fit along the warp");
-    const auto usual = [](double value) { return value > 1.0 / kMostFit && value < kMostFit; };
-    if (!usual(weft) || !usual(warp) || !(std::abs(across) < kMostFit))
+    const auto usual = [](double value) { return value > 1.0 / kMostWanted && value < kMostWanted; };
+    if (!usual(weft) || !usual(warp) || !(std::abs(across) < kMostWanted))
       scanner_.fail("the fit of a face is none that cloth can have; have the file written again");
     if (obj_.wanted.size() + 1 != obj_.triangles.size())
       scanner_.fail("\"#fit\" belongs behind a face with three corners; have the file written again");
@@ -134,7 +135,7 @@ class Reader {
 }  // namespace
 
 ObjTextured read_textured_obj(std::span<const std::uint8_t> bytes, const std::string& name) {
-  return Reader(bytes, name).read();
+  return TexturedReader(bytes, name).read();
 }
 
 }  // namespace toile

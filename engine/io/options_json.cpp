@@ -93,9 +93,9 @@ void visit_options(Options& options, Visitor& visit) {
   visit.text_list("outputs", options.outputs);
 }
 
-class Reader {
+class OptionsReader {
  public:
-  explicit Reader(const JsonView& object) : object_(object) {}
+  explicit OptionsReader(const JsonView& object) : object_(object) {}
 
   void integer(const char* name, int& value, int least, int most) {
     if (const auto given = object_.find(name)) value = given->integer(least, most);
@@ -217,7 +217,7 @@ AlterOptions read_options(const JsonView& object) {
   try {
     refuse_unknown(object);
     AlterOptions options;
-    Reader reader(object);
+    OptionsReader reader(object);
     visit_options(options, reader);
     return options;
   } catch (const Error& error) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/geometry/shelf_layout.h"
+#include "engine/io/drawing_layout.h"
 #include "engine/io/pdf_content.h"
 #include "engine/io/pdf_document.h"
 #include "engine/io/pdf_tiles.h"
@@ -17,7 +18,6 @@ constexpr double kPointsPerMm = 72.0 / 25.4;
 constexpr double kLongestSide =
     5000.0;  // mm; readers draw no more than 14400 units a side, longer pages use larger units
 constexpr PdfStroke kThin{{0.55, 0.55, 0.6}, 0.2, {}};
-constexpr double kHeader = 120.0;  // mm over the pieces of a large sheet, for title and test square
 
 Paper paper_of(PdfSheet sheet) {
   switch (sheet) {
@@ -159,7 +159,7 @@ class PdfWriter {
     const bool projector = options_.sheet == PdfSheet::Projector;
     Paper paper = paper_of(options_.sheet);
     SheetLayoutOptions sheet;
-    sheet.header_mm = kHeader;
+    sheet.header_mm = kHeaderMm;
     if (!projector) sheet.width_mm = paper.frame().x() - 2 * sheet.margin_mm;
     layout_ = lay_out(drawing_, sheet);
     layout_.size.x() = std::max(layout_.size.x(), 260.0);

@@ -12,7 +12,7 @@ namespace toile {
 namespace {
 
 constexpr std::size_t kMaxHeaderBytes = 64 * 1024;
-constexpr std::size_t kMaxEntries = 64;  // elements, and properties of one element
+constexpr std::size_t kMaxDeclared = 64;  // elements, and properties of one element
 
 struct TypeName {
   std::string_view name;
@@ -95,12 +95,12 @@ PlyHeader read_ply_header(std::span<const std::uint8_t> bytes, const std::string
       header.encoding = read_encoding(scanner);
       has_encoding = true;
     } else if (word == "element") {
-      if (header.elements.size() >= kMaxEntries) scanner.fail("too many elements; export only vertices and faces");
+      if (header.elements.size() >= kMaxDeclared) scanner.fail("too many elements; export only vertices and faces");
       header.elements.push_back(read_element(scanner));
     } else if (word == "property") {
       if (header.elements.empty()) scanner.fail("a property before any element; export the file again");
       auto& properties = header.elements.back().properties;
-      if (properties.size() >= kMaxEntries) scanner.fail("too many properties; export only positions and faces");
+      if (properties.size() >= kMaxDeclared) scanner.fail("too many properties; export only positions and faces");
       properties.push_back(read_property(scanner));
     } else if (word == "end_header") {
       if (!has_encoding) scanner.fail("the header names no format; export the file again");

@@ -11,7 +11,6 @@
 namespace toile {
 namespace {
 
-constexpr double kHeader = 120.0;  // mm above the pieces for title and test square
 // Embedded drawings are shown about this wide; there words that matter are raised to what can be read and the others,
 // seam numbers mostly, left out.
 constexpr double kPageWidth = 960.0;      // pixels
@@ -44,7 +43,7 @@ class SvgWriter {
  public:
   SvgWriter(const Drawing& drawing, const SvgOptions& options) : drawing_(drawing), options_(options) {
     SheetLayoutOptions sheet;
-    sheet.header_mm = options.test_square ? kHeader : 0.0;
+    sheet.header_mm = options.test_square ? kHeaderMm : 0.0;
     layout_ = lay_out(drawing, sheet);
     if (options.test_square) layout_.size.x() = std::max(layout_.size.x(), 260.0);
   }

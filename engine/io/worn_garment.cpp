@@ -18,9 +18,9 @@ namespace {
 constexpr double kOnOutline = 1e-3;  // m: of the border to the drawn outline
 constexpr double kFlatness = 1e-4;   // m
 
-class Reader {
+class WornReader {
  public:
-  Reader(const ObjTextured& obj, const std::string& name, const Pattern& pattern)
+  WornReader(const ObjTextured& obj, const std::string& name, const Pattern& pattern)
       : obj_(obj), name_(name), pattern_(pattern) {}
 
   WornGarment read() {
@@ -183,7 +183,7 @@ class Reader {
 
 WornGarment read_worn_garment(std::span<const std::uint8_t> bytes, const std::string& name, const Pattern& pattern) {
   const ObjTextured obj = read_textured_obj(bytes, name);
-  return Reader(obj, name, pattern).read();
+  return WornReader(obj, name, pattern).read();
 }
 
 }  // namespace toile

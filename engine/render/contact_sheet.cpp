@@ -12,7 +12,7 @@
 namespace toile {
 namespace {
 
-constexpr int kGap = 12;           // pixels between views and round the sheet
+constexpr int kViewGap = 12;       // pixels between views and round the sheet
 constexpr double kCaption = 11.0;  // capital height of captions, pixels
 
 struct Layout {
@@ -31,18 +31,18 @@ double scale_of(const SheetOptions& options) {
 
 Layout lay_out(const SheetOptions& options) {
   Layout layout;
-  layout.top = options.title.empty() ? kGap : 2 * kGap + static_cast<int>(1.5 * kCaption);
-  int x = kGap, tallest = 16;
+  layout.top = options.title.empty() ? kViewGap : 2 * kViewGap + static_cast<int>(1.5 * kCaption);
+  int x = kViewGap, tallest = 16;
   for (const View view : options.views) {
     layout.cameras.push_back(camera_for(view, options.frame, scale_of(options)));
     layout.left.push_back(x);
-    x += layout.cameras.back().width + kGap;
+    x += layout.cameras.back().width + kViewGap;
     tallest = std::max(tallest, layout.cameras.back().height);
   }
-  if (options.stretch_scale) x += kStretchLegendWidth + kGap, tallest = std::max(tallest, 160);
+  if (options.stretch_scale) x += kStretchLegendWidth + kViewGap, tallest = std::max(tallest, 160);
   layout.views_bottom = layout.top + tallest;
-  layout.width = std::max({x, 120, 2 * kGap + static_cast<int>(text_width(options.title, 1.25 * kCaption)) + 1});
-  layout.height = layout.views_bottom + 2 * kGap + static_cast<int>(kCaption);
+  layout.width = std::max({x, 120, 2 * kViewGap + static_cast<int>(text_width(options.title, 1.25 * kCaption)) + 1});
+  layout.height = layout.views_bottom + 2 * kViewGap + static_cast<int>(kCaption);
   return layout;
 }
 
@@ -139,12 +139,12 @@ Image contact_sheet(const std::vector<Surface>& surfaces, const SheetOptions& op
     const Camera& camera = layout.cameras[i];
     if (!options.frame.empty())
       canvas.paste_supersampled(paint(surfaces, camera, canvas.supersample(), kWhite), layout.left[i], layout.top);
-    canvas.text({layout.left[i] + 0.5 * camera.width, layout.views_bottom + kGap + kCaption}, kCaption,
+    canvas.text({layout.left[i] + 0.5 * camera.width, layout.views_bottom + kViewGap + kCaption}, kCaption,
                 view_name(options.views[i]), kFaintInk, Anchor::Middle);
   }
-  if (!options.title.empty()) canvas.text({kGap, kGap + 1.25 * kCaption}, 1.25 * kCaption, options.title, kInk);
+  if (!options.title.empty()) canvas.text({kViewGap, kViewGap + 1.25 * kCaption}, 1.25 * kCaption, options.title, kInk);
   if (options.stretch_scale) {
-    const Vec2 corner(layout.width - kGap - kStretchLegendWidth, layout.top);
+    const Vec2 corner(layout.width - kViewGap - kStretchLegendWidth, layout.top);
     draw_stretch_legend(canvas, corner, std::min(360, layout.views_bottom - layout.top), *options.stretch_scale);
   }
   draw_marks(canvas, layout, surfaces, options);

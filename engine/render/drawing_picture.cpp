@@ -13,10 +13,10 @@
 namespace toile {
 namespace {
 
-constexpr double kGap = 24.0;     // mm between pieces
-constexpr int kMargin = 16;       // pixels
-constexpr double kLeastText = 7;  // pixels; smaller labels are left out ...
-constexpr double kReadable = 4;   // mm; ... unless they are this tall on the cloth
+constexpr double kPieceGap = 24.0;  // mm between pieces
+constexpr int kMargin = 16;         // pixels
+constexpr double kLeastText = 7;    // pixels; smaller labels are left out ...
+constexpr double kReadable = 4;     // mm; ... unless they are this tall on the cloth
 
 // What a piece is filled with: its closed lines that bound cloth.
 std::vector<const DrawingLine*> cloth_of(const DrawingPiece& piece) {
@@ -38,7 +38,7 @@ class PicturePainter {
       sizes.emplace_back(high - low);
       lows_.push_back(low);
     }
-    layout_ = lay_on_shelves(sizes, shelf_width(sizes, kGap, 1.6), kGap);
+    layout_ = lay_on_shelves(sizes, shelf_width(sizes, kPieceGap, 1.6), kPieceGap);
     const int width = std::clamp(options.width, 64, 8192);
     const int legend = options.stretch_scale ? kStretchLegendWidth + kMargin : 0;
     scale_ = std::max(16, width - 2 * kMargin - legend) / std::max(1.0, layout_.size.x());

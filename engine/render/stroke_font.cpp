@@ -105,7 +105,7 @@ constexpr std::array<std::string_view, 94> kGlyphs = {
     "04153445",                            // ~
 };
 
-constexpr double kCapHeight = 6.0, kBaseline = 2.0, kGap = 2.0, kSpace = 3.0;
+constexpr double kCapHeight = 6.0, kBaseline = 2.0, kGlyphGap = 2.0, kSpace = 3.0;
 
 std::string_view glyph(char c) {
   if (c > ' ' && c <= '~') return kGlyphs[static_cast<std::size_t>(c - '!')];
@@ -150,7 +150,7 @@ std::vector<std::vector<Vec2>> text_strokes(std::string_view text, double height
       strokes.back().push_back(unit * Vec2(pen + digits[i] - '0', digits[i + 1] - '0' - kBaseline));
       i += 2;
     }
-    pen += glyph_width(digits) + kGap;
+    pen += glyph_width(digits) + kGlyphGap;
   }
   return strokes;
 }
@@ -158,8 +158,8 @@ std::vector<std::vector<Vec2>> text_strokes(std::string_view text, double height
 double text_width(std::string_view text, double height) {
   double pen = 0.0;
   for (const char c : text)
-    if (!continues_utf8(c)) pen += c == ' ' ? kSpace : glyph_width(glyph(c)) + kGap;
-  return std::max(0.0, pen - kGap) * height / kCapHeight;
+    if (!continues_utf8(c)) pen += c == ' ' ? kSpace : glyph_width(glyph(c)) + kGlyphGap;
+  return std::max(0.0, pen - kGlyphGap) * height / kCapHeight;
 }
 
 }  // namespace toile
