@@ -147,7 +147,7 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
   const auto& [pattern, mesh, wearer, worn, fit] = ideal.value.reference;
   const DerivedPattern& derived = ideal.value.derived;
   const auto scene_from = [&](const Drape& start) { return AlterationScene{mesh, fit, derived.mesh, start}; };
-  auto altered = runner.run("alter_pattern", 35, key_of(ideal.key, alter_options, drape_options, plan_options), [&] {
+  auto altered = runner.run("alter_pattern", 36, key_of(ideal.key, alter_options, drape_options, plan_options), [&] {
     return alter_in_loop(pattern, scene_from(ideal.value.transported.drape), derived, *on_body.on_target, alter_options,
                          drape_options, plan_options, runner.progress(), runner.at_once());
   });

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "engine/alter/panel_sides.h"
 #include "engine/alter/side_curve.h"
@@ -52,6 +53,8 @@ struct Sheet {
   std::vector<SideCurve> wanted_sides;    // in `now`
   std::vector<Cut> cuts;                  // in the order they were made
   double edge_length = 0.0;               // mean, m
+  // Across the axis about which the panel is its own mirror image: cloth that can slide stays in its middle. Unit.
+  std::optional<Vec2> across;
 
   int vertex_count() const { return static_cast<int>(vertices.size()); }
 };

@@ -50,6 +50,19 @@ SheetEquations::SheetEquations(const Sheet& sheet, double hold)
   }
   ties_.resize(sheet.vertices.size());
   right_.resize(sheet.vertex_count(), 2);
+  if (sheet.across) middle_ = middle_of(sheet);
+}
+
+// The sum of the plain map, and its weights.
+SheetEquations::Middle SheetEquations::middle_of(const Sheet& sheet) const {
+  Middle middle;
+  middle.way.setZero(sheet.vertex_count(), 2);
+  for (const Face& face : faces_)
+    for (const int v : face.corner) middle.way.row(v) += face.area / 3.0 * sheet.across->transpose();
+  middle.wanted = 0.0;
+  for (int v = 0; v < sheet.vertex_count(); ++v)
+    middle.wanted += middle.way.row(v).dot(sheet.vertices[static_cast<std::size_t>(v)].guide);
+  return middle;
 }
 
 // Also fills the faces, which the links are made of.
@@ -114,13 +127,20 @@ void SheetEquations::renew(const Sheet& sheet) {
       const SideFoot foot = sheet.wanted_sides[static_cast<std::size_t>(anchor.side)].closest(now_.row(v).transpose());
       pulls_.push_back({v, foot.normal, foot.normal.dot(foot.point)});
     }
-  firmness_ = slides() ? kFirmer : 1.0;
+  const bool sliding = slides();
+  firmness_ = sliding ? kFirmer : 1.0;
   for (std::size_t v = 0; v < ties_.size(); ++v) ties_[v] = (proximal_ + firmness_ * hold_[v]) * Mat2::Identity();
   for (const Pull& pull : pulls_)
     ties_[static_cast<std::size_t>(pull.vertex)] += kAttachment * pull.normal * pull.normal.transpose();
   if (!solver_.factor(ties_))
     throw Error(ErrorCode::AlterationFailed, "panel:#" + std::to_string(sheet.panel),
                 "the stretched cloth has no stable position; mesh the panel again or look for empty triangles");
+  if (!middle_) return;
+  middle_->holds = sliding;
+  if (!sliding) return;
+  middle_->answer.resize(now_.rows(), 2);
+  solver_.solve(middle_->way, middle_->answer);
+  middle_->given = middle_->way.cwiseProduct(middle_->answer).sum();
 }
 
 Mat2 SheetEquations::gradient(const Face& face) const {
@@ -143,6 +163,10 @@ double SheetEquations::sweep() {
   }
   for (const Pull& pull : pulls_) right_.row(pull.vertex) += kAttachment * pull.offset * pull.normal.transpose();
   solver_.solve(right_, now_);
+  if (middle_ && middle_->holds) {
+    const double off = middle_->way.cwiseProduct(now_).sum() - middle_->wanted;
+    now_ -= off / middle_->given * middle_->answer;
+  }
   return energy;
 }
 

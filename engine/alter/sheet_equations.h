@@ -37,9 +37,18 @@ class SheetEquations {
     Vec2 normal;
     double offset;  // n.c
   };
+  // Cloth that can slide does not shift across the axis as a whole: sum A (x - g).a = 0.
+  struct Middle {
+    Points2 way;         // A a per vertex
+    double wanted;       // the sum in the plain map
+    Points2 answer;      // how the cloth gives way when pushed so
+    double given = 0.0;  // how far that moves the sum
+    bool holds = false;  // the cloth can slide
+  };
 
   Mat2 gradient(const Face& face) const;
   bool slides() const;
+  Middle middle_of(const Sheet& sheet) const;
   PlaneSolver solver_of(const Sheet& sheet);
 
   std::vector<Face> faces_;
@@ -51,6 +60,7 @@ class SheetEquations {
   PlaneSolver solver_;
   std::vector<Mat2> ties_;  // per vertex: what the attachments add to the diagonal
   std::vector<Pull> pulls_;
+  std::optional<Middle> middle_;  // of cloth that is its own mirror image
   Points2 now_, right_;
 };
 

@@ -6,8 +6,9 @@
 // with P_f the nearest gradient whose fibres have length l* = min(1, that of the plain map) at 90 +- 5 degrees, where
 // shear costs long cloth what stretch does, and (c, n) foot and normal on the wanted side, on which attached vertices
 // slide, and g the place in the plain map, which keeps cloth that hangs on no side, or could slide along one, from
-// drifting off: cloth that can slide as a whole, straight or round a bend, is held ten times as firmly.  l* < 1: cloth
-// that must shrink here is the business of the pass with the roles swapped, not stress.
+// drifting off. Cloth that can slide as a whole, straight or round a bend, is held ten times as firmly; if
+// its panel is its own mirror image, it does not shift across the axis a at all: sum_v A_v (x - g).a = 0.
+// l* < 1: cloth that must shrink here is the business of the pass with the roles swapped, not stress.
 //   local step: P_f      global step: a prefactored solve; (c, n) renewed every few sweeps
 // Source: [Eggler2024, Sec. 6]; energy and weights method.md section 5.  Lengths in metres.
 #pragma once

@@ -23,22 +23,31 @@ std::vector<Sheet> make_sheets(const Pattern& pattern, const Stretching& maps,
   return sheets;
 }
 
+// A panel that is its own mirror image, and is altered so, is cloth that stays in its middle.
+void keep_in_the_middle(const std::vector<std::optional<PanelTwin>>& twins, std::vector<Sheet>& sheets) {
+  for (std::size_t p = 0; p < sheets.size(); ++p) {
+    if (!twins[p] || twins[p]->panel != static_cast<int>(p)) continue;
+    // A reflection turns what lies across its axis around: eigenvalues come in rising order, -1 first.
+    sheets[p].across = Eigen::SelfAdjointEigenSolver<Mat2>(twins[p]->reflection).eigenvectors().col(0);
+  }
+}
+
 // Decides on a coarse mesh which tears every panel gets.
 class Planning {
  public:
   Planning(const Pattern& pattern, const PatternMesh& mesh, std::vector<Sheet> sheets,
-           const TearPatternOptions& options, TearMemory& memory, Progress* progress)
+           std::vector<std::optional<PanelTwin>> twins, const TearPatternOptions& options, TearMemory& memory,
+           Progress* progress)
       : pattern_(pattern),
         options_(options),
         memory_(memory),
         progress_(progress),
         partners_(find_seam_partners(mesh)),
-        sheets_(std::move(sheets)) {
+        sheets_(std::move(sheets)),
+        twins_(std::move(twins)) {
     plan_.panels.resize(sheets_.size());
     plan_.jobs.resize(sheets_.size());
     stretched_.assign(sheets_.size(), false);
-    twins_.resize(sheets_.size());
-    if (options.symmetric) twins_ = find_panel_twins(pattern, sheets_);
     units_ = side_units(pattern, sheets_, partners_, twins_);
     sets_.resize(sheets_.size());
     trials_.assign(sheets_.size(), 0);
@@ -273,9 +282,13 @@ TornPattern tear_pattern(const Pattern& pattern, const Stretching& fine, const S
   memory.resize(pattern.panels.size());
   const bool in_rounds = options.choice.greedy || options.candidates.weighting == TearWeighting::Boundary;
   std::vector<Sheet> sheets = make_sheets(pattern, fine), coarse_sheets = make_sheets(pattern, coarse, &sheets);
-  TornPattern torn = in_rounds
-                         ? tear_in_rounds(pattern, coarse.mesh, std::move(coarse_sheets), options, progress)
-                         : Planning(pattern, coarse.mesh, std::move(coarse_sheets), options, memory, progress).run();
+  std::vector<std::optional<PanelTwin>> twins(sheets.size());
+  if (options.symmetric && !in_rounds) twins = find_panel_twins(pattern, coarse_sheets);
+  for (std::vector<Sheet>* all : {&sheets, &coarse_sheets}) keep_in_the_middle(twins, *all);
+  TornPattern torn =
+      in_rounds
+          ? tear_in_rounds(pattern, coarse.mesh, std::move(coarse_sheets), options, progress)
+          : Planning(pattern, coarse.mesh, std::move(coarse_sheets), std::move(twins), options, memory, progress).run();
   const std::vector<Sheet> planned = std::move(torn.sheets);
   torn.sheets = std::move(sheets);
   const double limit = options.candidates.stretch_limit;

@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fixture{"cut", 1012, "a piece had a corner kilometres away"}),
     [](const auto& fixture) { return fixture.param.kind + std::to_string(fixture.param.seed); });
 
-// A tube of cloth that gives in its height alone, too narrow for the bulge it is pulled over.
+// A patchwork that folds through itself as it is draped.
 TEST(Tangle, IsGivenUpOnceAndSaid) {
   test::Dice dice = dice_of(51181);
   Outcome outcome;

@@ -205,6 +205,21 @@ TEST(AlterPattern, SymmetryWidensBothSidesAlike) {
   EXPECT_EQ(alter(garment, scaled(1.2, 1), options).panels[0].insertions.size(), 1u);
 }
 
+// A straight waistband for a body whose own is longer and bent, at one end a little more than at the other.
+TEST(AlterPattern, ABandThatIsItsOwnMirrorImageGrowsAsMuchAtBothEnds) {
+  constexpr double kWidth = 0.43;  // m
+  GridGarment garment = grid_garment({{"band", kWidth, 0.045, 32, 3, 0.0}});
+  garment.pattern.panels[0].translation = {-kWidth / 2, 0, 0};
+  const Map bent = [](int, const Vec2& p) {
+    const double x = p.x() - kWidth / 2;
+    return Vec2(1.05 * p.x(), p.y() + 0.8 * x * x * (1.0 + 0.3 * x));
+  };
+  const AlterPatternResult result = alter(garment, bent);
+  ASSERT_EQ(result.panels[0].insertions.size(), 2u);
+  const double left = result.panels[0].insertions[0].area, right = result.panels[0].insertions[1].area;
+  EXPECT_NEAR(left, right, 0.05 * (left + right));
+}
+
 TEST(AlterPattern, TheSymmetryPlaneSaysWhatIsTheMiddle) {
   GridGarment garment = sheet(0.02, 0.0);
   garment.pattern.panels[0].translation = {0.1, 0, 0};
