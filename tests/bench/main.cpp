@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <map>
 
@@ -90,10 +91,15 @@ Arguments arguments_of(int argc, char** argv) {
   return arguments;
 }
 
-int tell_usage() {
-  std::fprintf(stderr, "usage: toile-bench NAME [words] [--csv FILE] [--svg FILE] [--repeats N]\n");
-  for (const auto& [name, entry] : benches()) std::fprintf(stderr, "  %-12s %s\n", name.c_str(), entry.summary);
-  return 2;
+constexpr const char* usage = "usage: toile-bench %s [words] [--csv FILE] [--svg FILE] [--repeats N]\n";
+
+void tell_all(std::FILE* out) {
+  std::fprintf(out, usage, "NAME");
+  for (const auto& [name, entry] : benches()) std::fprintf(out, "  %-12s %s\n", name.c_str(), entry.summary);
+}
+
+bool asks_for_help(const char* word) {
+  return std::strcmp(word, "--help") == 0 || std::strcmp(word, "-h") == 0;
 }
 
 }  // namespace
@@ -101,8 +107,14 @@ int tell_usage() {
 
 int main(int argc, char** argv) {
   using namespace toile::bench;
+  if (argc > 1 && asks_for_help(argv[1])) return tell_all(stdout), 0;
   const auto found = argc > 1 ? benches().find(argv[1]) : benches().end();
-  if (found == benches().end()) return tell_usage();
+  if (found == benches().end()) return tell_all(stderr), 2;
+  if (std::any_of(argv + 2, argv + argc, asks_for_help)) {
+    std::printf(usage, argv[1]);
+    std::printf("  %s\n", found->second.summary);
+    return 0;
+  }
   try {
     return found->second.run(arguments_of(argc, argv));
   } catch (const std::exception& error) {
