@@ -105,8 +105,9 @@ Row alter_one(const AlterRequest& request, const AlterPair& pair, const AlterOpt
   if (row.fit && !row.fit->problem.empty())
     std::printf("%s for %s: %s\n", pair.garment.c_str(), pair.body.c_str(), row.fit->problem.c_str());
   if (!request.pictures.empty()) {
-    write_picture(request.pictures, pair.garment + "_" + pair.body, picture_of(pair, result, 1400));
-    sheet.push_back(picture_of(pair, result, kSheetWidth));
+    const std::string title = pair.garment + " for " + pair.body;
+    write_picture(request.pictures, pair.garment + "_" + pair.body, picture_of(title, result, 1400));
+    sheet.push_back(picture_of(title, result, kSheetWidth));
   }
   if (request.sentences) print_sentences(pair, result);
   return row;

@@ -115,13 +115,13 @@ AlterInLoopResult alter_derived(const DerivedGarment& derived, const AlterOption
                        on_target, alter_options_of(job), drape_options_of(job), plan_options_of(job));
 }
 
-Image picture_of(const AlterPair& pair, const AlterPatternResult& result, int width) {
-  Drawing drawing{pair.garment, {}};
+Image picture_of(const std::string& title, const AlterPatternResult& result, int width) {
+  Drawing drawing{title, {}};
   for (const PanelAlteration& panel : result.panels) drawing.pieces.push_back(panel_piece(panel));
   DrawingPictureOptions options;
   options.width = width;
-  options.title = pair.garment + " for " + pair.body + ": " + std::to_string(result.ticket.operations.size()) +
-                  " operations, " + std::to_string(result.flags.size() + result.sewn.flags.size()) + " flags";
+  options.title = title + ": " + std::to_string(result.ticket.operations.size()) + " operations, " +
+                  std::to_string(result.flags.size() + result.sewn.flags.size()) + " flags";
   return draw_picture(drawing, options);
 }
 

@@ -47,8 +47,8 @@ AlterInLoopResult alter_derived(const DerivedGarment& derived, const AlterOption
 // What its altered garment is held against, draped from `start`.
 AlterationScene scene_of(const DerivedGarment& derived, const Drape& start);
 
-// Every panel as it is cut (left) and as it will be (right).
-Image picture_of(const AlterPair& pair, const AlterPatternResult& result, int width);
+// Every panel as it is cut (left) and as it will be (right). The title goes on: ": 3 operations, 1 flags".
+Image picture_of(const std::string& title, const AlterPatternResult& result, int width);
 
 // Pictures in rows of `columns`, on white.
 Image tile(const std::vector<Image>& pictures, int columns);

@@ -20,25 +20,36 @@ struct Entry {
 const std::map<std::string, Entry>& benches() {
   static const std::map<std::string, Entry> all = {
       {"alter",
-       {"alter shared garments for other bodies: [GARMENT:BODY...] [--drape] [--greedy] [--triangles N] [--pictures "
-        "FOLDER]",
+       {"alter shared garments for other bodies: [GARMENT[:BODY]...] [--drape] [--greedy] [--mesh-edges] [--mu X] "
+        "[--gamma X] [--plans N] [--triangles N] [--stages FOLDER] [--pictures FOLDER] [--sentences] [--growth]",
         bench_alter}},
       {"worn",
-       {"garments worn by MakeHuman bodies altered for others: [GARMENT...] [--triangles N] [--pictures FOLDER]",
+       {"garments worn by MakeHuman bodies altered for others: [GARMENT...] [--triangles N] [--stages FOLDER] "
+        "[--pictures FOLDER] [--sentences]",
         bench_worn}},
       {"alteration", {"draw an alteration: GARMENT.json ACROSS ALONG FOLDER", bench_alteration}},
       {"examples",
-       {"drafted examples altered between five mannequins: [GARMENT...] [--triangles N] [--sentences]",
+       {"drafted examples altered between five mannequins: [GARMENT...] [--triangles N] [--pictures FOLDER] "
+        "[--sentences]",
         bench_examples}},
       {"inputs", {"time against quality of reading and meshing what users hand in", bench_inputs}},
-      {"derive", {"target patterns: fit and position before and after, over garments and bodies", bench_derive}},
+      {"derive",
+       {"target patterns: fit and position before and after, over garments and bodies: [trips|growth|random|sweeps] "
+        "[GARMENT...] [--bodies NAME,...] [--triangles N] [--count N] [--asymmetric] [--stages FOLDER] [--pictures "
+        "FOLDER]",
+        bench_derive}},
       {"drape",
-       {"sew and drape: [GARMENT...] [growth] [--triangles N] [--body NAME | --other-bodies] [--sheet FILE]",
+       {"sew and drape: [growth|halves] [GARMENT...] [--triangles N] [--body NAME | --other-bodies] "
+        "[--no-self-contact] [--whole] [--iterations N] [--sheet FILE]",
         bench_drape}},
       {"fabrics", {"textile laboratory: [FABRIC...] [--rings N] [--growth] [--pictures FOLDER]", bench_fabrics}},
-      {"oracle", {"default against Newton: [GARMENT...] [--triangles N] [--frictionless | --finer]", bench_oracle}},
+      {"oracle",
+       {"default against Newton: [GARMENT...] [--triangles N] [--residual R] [--stop-settled R] [--frictionless | "
+        "--finer]",
+        bench_oracle}},
       {"ladder",
-       {"which rung of the retry ladder drapes whom: [GARMENT...] [--people N] [--triangles N] [--off METRES]",
+       {"which rung of the retry ladder drapes whom: [GARMENT...] [--people N] [--first I] [--triangles N] [--off "
+        "METRES] [--from RUNG]",
         bench_ladder}},
       {"mannequins",
        {"made of tape measurements: [people N] misses of random people; likeness FOLDER pictures beside shared bodies",
@@ -50,7 +61,10 @@ const std::map<std::string, Entry>& benches() {
        {"body maps: time against error over resolutions, growth; [pairs [TARGET] | variants [BODY] | measures "
         "[TARGET...] | where [TARGET...] | skin [SCAN...]]",
         bench_register}},
-      {"stages", {"a whole job stage by stage: [SCENE...] [--triangles N] [--outputs none|images|all]", bench_stages}},
+      {"stages",
+       {"a whole job stage by stage: [SCENE...] [--triangles N] [--outputs none|images|all] [--preset "
+        "draft|standard|fine] [--threads N]",
+        bench_stages}},
       {"transport",
        {"garments carried to other bodies and draped: [GARMENT...] [--body NAME] [--triangles N] [--pictures FOLDER]",
         bench_transport}},
@@ -58,12 +72,16 @@ const std::map<std::string, Entry>& benches() {
        {"random scenes in processes of their own: [--scenes N] [--seed S] [--kind KIND] [--limit SECONDS] [--all]",
         bench_stress}},
       {"batch",
-       {"one garment for many bodies, stages shared: [GARMENT] [--bodies NAME,...] [--triangles N]", bench_batch}},
+       {"one garment for many bodies, stages shared: [GARMENT] [--bodies NAME,... | --count N] [--triangles N]",
+        bench_batch}},
       {"growth", {"a whole job over mesh sizes: [SCENE] [--sizes N,N,...]", bench_growth}},
       {"ledger",
        {"tolerance and reached value of every comparison of the tests: [--slow] [--filter F] [PROGRAM...]",
         bench_ledger}},
-      {"pareto", {"run time against error: [SCENE...] [--points N:R,...] [--fine N] [--held] [--flat]", bench_pareto}},
+      {"pareto",
+       {"run time against error: [SCENE...] [--points N:R[:S],... | --sizes N,... --residuals R,...] [--newton] "
+        "[--fine N] [--fine-residual R] [--held] [--flat]",
+        bench_pareto}},
       {"skip", {"each saving off and on: [SCENE] [--triangles N]", bench_skip}},
       {"threads", {"the same job several times at once: [GARMENT] [--bodies NAME] [--triangles N]", bench_threads}},
       {"where",

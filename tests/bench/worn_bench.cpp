@@ -79,13 +79,13 @@ Image view_of(const Body& body, const PatternMesh& mesh, const Drape& drape, con
 Image picture_of_pair(const WornPair& pair, const AlterResult& r) {
   const DrapedGarment& worn = r.reference;
   std::vector<Image> cells = {
-      view_of(worn.body, worn.mesh, worn.drape.drape, worn.fit, pair.wearer),
+      view_of(worn.body, worn.mesh, worn.drape.drape, worn.fit, pair.garment + std::string(" on ") + pair.wearer),
       view_of(r.target_body, worn.mesh, r.before->drape, r.fit_before, pair.body + std::string(" before")),
   };
   if (r.after && r.after->problem.empty())
     cells.push_back(
         view_of(r.target_body, r.after->mesh, r.after->drape.drape, r.after->fit, pair.body + std::string(" after")));
-  cells.push_back(picture_of({pair.garment, pair.body}, r.altered, kPatternWidth));
+  cells.push_back(picture_of("cloth", r.altered, kPatternWidth));
   int width = 0, height = 0, x = 0;
   for (const Image& cell : cells) width += cell.width, height = std::max(height, cell.height);
   Image row(width, height, {255, 255, 255});
@@ -96,12 +96,14 @@ Image picture_of_pair(const WornPair& pair, const AlterResult& r) {
   return row;
 }
 
-// "6 off 12.0, 7 off 7.9": operations of every plan and where it rested, mm.
+// "6 off 12.0, 7+2 off 7.9": operations of every plan, and its faults, and where it rested, mm.
 std::string words_of(const PlacedPlans& place) {
   std::string words;
-  for (const TriedPlan& plan : place.plans)
-    words +=
-        (words.empty() ? "" : ", ") + std::to_string(plan.operations) + " off " + fixed(kMmPerMetre * plan.position, 1);
+  for (const TriedPlan& plan : place.plans) {
+    words += (words.empty() ? "" : ", ") + std::to_string(plan.operations);
+    if (plan.faults > 0) words += "+" + std::to_string(plan.faults);
+    words += " off " + fixed(kMmPerMetre * plan.position, 1);
+  }
   return words;
 }
 
