@@ -27,7 +27,7 @@ Keyed<DrapedGarment> drape_on(const GarmentInput& garment, const Keyed<Pattern>&
     if (auto given = read_garment_mesh(garment)) return std::move(*given);
     return mesh_panels(pattern.value, mesh_options, runner.progress());
   });
-  const auto worn = runner.run("drape", 25, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
+  const auto worn = runner.run("drape", 26, key_of(pattern.key, mesh.key, wearer.key, drape_options), [&] {
     const auto given = read_garment_drape(garment, wearer.value);
     if (!given) return drape(pattern.value, mesh.value, wearer.value, drape_options, runner.progress());
     DrapeOptions from_given = drape_options;
@@ -91,7 +91,7 @@ DerivedOnBody derive_on_body(const GarmentInput& garment, const BodyInput& refer
       [&](StageRunner& part) -> std::optional<DrapeResult> {
         if (!wants_before(options)) return part.skip("drape_before"), std::nullopt;
         return part
-            .run("drape_before", 22, key_of(transported.key, drape_options),
+            .run("drape_before", 23, key_of(transported.key, drape_options),
                  [&] {
                    DrapeSeries beside(target);
                    return (part.at_once() ? beside : *on_target)
@@ -100,10 +100,12 @@ DerivedOnBody derive_on_body(const GarmentInput& garment, const BodyInput& refer
             .value;
       },
       [&](StageRunner& part) {
-        return part.run("derive_pattern", 29, key_of(transported.key, derive_options, loop_options, plane), [&] {
+        return part.run("derive_pattern", 30, key_of(transported.key, derive_options, loop_options, plane), [&] {
           const auto mirrors = plane ? find_garment_mirrors(pattern, mesh, worn.drape, *plane) : GarmentMirrors{};
+          DeriveInLoopOptions passes = loop_options;
+          if (worn.quality.rest == Rest::NotAtRest) passes.max_passes = 1;  // its fit is worth no second one
           return derive_in_loop(pattern, mesh, fit, *on_target, transported.value.drape, mirrors, derive_options,
-                                drape_options, loop_options, part.progress());
+                                drape_options, passes, part.progress());
         });
       });
 
@@ -147,7 +149,7 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
   const auto& [pattern, mesh, wearer, worn, fit] = ideal.value.reference;
   const DerivedPattern& derived = ideal.value.derived;
   const auto scene_from = [&](const Drape& start) { return AlterationScene{mesh, fit, derived.mesh, start}; };
-  auto altered = runner.run("alter_pattern", 36, key_of(ideal.key, alter_options, drape_options, plan_options), [&] {
+  auto altered = runner.run("alter_pattern", 37, key_of(ideal.key, alter_options, drape_options, plan_options), [&] {
     return alter_in_loop(pattern, scene_from(ideal.value.transported.drape), derived, *on_body.on_target, alter_options,
                          drape_options, plan_options, runner.progress(), runner.at_once());
   });
@@ -156,7 +158,7 @@ AlterResult alter_garment(const GarmentInput& garment, const BodyInput& referenc
     runner.skip("drape_altered");
     return {std::move(ideal.value), std::move(alteration), std::move(place), {}};
   }
-  auto after = runner.run("drape_altered", 22, key_of(altered.key, ideal.key, drape_options), [&] {
+  auto after = runner.run("drape_altered", 23, key_of(altered.key, ideal.key, drape_options), [&] {
     return drape_altered(scene_from(derived.drape.drape), alteration.sewn, std::move(tried_on), *on_body.on_target,
                          drape_options, runner.progress());
   });

@@ -46,7 +46,8 @@ class RestSeeker {
   const FrictionState& friction() const { return friction_; }  // of the whole garment
 
  private:
-  // True: the cloth pulls so hard that nodes lie deep in the body.
+  // True: the cloth rests, but pulls so hard that nodes lie deep in the body. Firmer contact does not bring cloth to
+  // rest that comes to none.
   bool relax_on(double stiffness, const Points3& start) {
     garment_.field.look_ahead(moved(start), garment_.thickness + kStartReach);
     ContactOptions contact_options;
@@ -78,7 +79,7 @@ class RestSeeker {
     result_.quality.settling_move = relaxed.last_move;
     result_.quality.rest = rest_of(relaxed);
     if (options_.solver == SolverKind::Newton) return refine(energy, relaxed.nodes), false;
-    return !relaxed.tangled && presses_deep(energy, contact.distances(), edges);
+    return result_.quality.rest != Rest::NotAtRest && presses_deep(energy, contact.distances(), edges);
   }
 
   // Of the nodes of the garment those that the solver moves.

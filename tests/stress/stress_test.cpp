@@ -63,26 +63,52 @@ INSTANTIATE_TEST_SUITE_P(
                     Fixture{"patchwork", 3506, "a piece smaller than a panel may be"},
                     Fixture{"patchwork", 41186, "strips meshed as needles: their derived pattern was next to nothing"},
                     Fixture{"patchwork", 51181, "cloth tangled beyond mending was draped for a minute and a half"},
+                    Fixture{"patchwork", 71282, "cloth that came to no rest was draped with ever firmer contact"},
                     Fixture{"cut", 20, "two corners of a piece fell into one: an edge of no length"},
                     Fixture{"cut", 1012, "a piece had a corner kilometres away"}),
     [](const auto& fixture) { return fixture.param.kind + std::to_string(fixture.param.seed); });
 
+JobScene patchwork_of(std::uint64_t seed) {
+  test::Dice dice = dice_of(seed);
+  Outcome outcome;
+  return patchwork_scene(dice, outcome);
+}
+
+GarmentInput garment_of(const JobScene& scene) {
+  const std::string text = write_garmentcode(scene.pattern);
+  return {"garment.json", Bytes(text.begin(), text.end())};
+}
+
+DrapeResult drape_of(const JobScene& scene) {
+  StageRunner runner(nullptr, nullptr, kDrapeStages);
+  return drape_garment(garment_of(scene), scene.reference, scene.options, runner).value.drape;
+}
+
 // A patchwork that folds through itself as it is draped.
 TEST(Tangle, IsGivenUpOnceAndSaid) {
-  test::Dice dice = dice_of(51181);
-  Outcome outcome;
-  const JobScene scene = patchwork_scene(dice, outcome);
-  const std::string text = write_garmentcode(scene.pattern);
-  StageRunner runner(nullptr, nullptr, kDrapeStages);
-  const DrapeResult worn =
-      drape_garment({"garment.json", Bytes(text.begin(), text.end())}, scene.reference, scene.options, runner)
-          .value.drape;
+  const DrapeResult worn = drape_of(patchwork_of(51181));
   EXPECT_TRUE(worn.diagnostics.tangled);
   EXPECT_EQ(worn.quality.rest, Rest::NotAtRest);
   EXPECT_LT(worn.diagnostics.iterations, 1000) << "of 3,000 with every one of several contact stiffnesses";
   EXPECT_LT(worn.diagnostics.moved_nodes, 500) << "the whole was draped after its half";
   ASSERT_FALSE(worn.diagnostics.findings.empty());
   EXPECT_NE(worn.diagnostics.findings.back().message.find("tangled"), std::string::npos);
+}
+
+// Its half comes to no rest, pressed into the body.
+TEST(Restless, IsDrapedAsAWholeInsteadOfFirmer) {
+  const DrapeResult worn = drape_of(patchwork_of(71282));
+  EXPECT_NE(worn.quality.rest, Rest::NotAtRest);
+  EXPECT_LT(worn.diagnostics.iterations, 1000);
+}
+
+TEST(SlowRestless, FitIsWorthOneDerivation) {
+  const JobScene scene = patchwork_of(61960);
+  StageRunner runner(nullptr, nullptr, kDeriveStages);
+  const DerivedGarment derived =
+      derive_garment(garment_of(scene), scene.reference, scene.target, scene.options, runner).value;
+  EXPECT_EQ(derived.reference.drape.quality.rest, Rest::NotAtRest);
+  EXPECT_EQ(derived.derived.pass_errors.size(), 1u);
 }
 
 }  // namespace
